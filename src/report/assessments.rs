@@ -104,9 +104,7 @@ pub fn view<'a, Row>(
     let unit = Some(shown.unit);
     let describe =
         move |row: &Row| of(row).map_or("-".to_owned(), |one| cell_in(&of_place, one, unit));
-    rows.column("", name, first.label, value)
-        .in_view()
-        .viewed(describe)
+    rows.shown(name, first.label, value).viewed(describe)
 }
 
 /// Adds the figures of one of the tables of designs, by its number.

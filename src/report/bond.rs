@@ -5,6 +5,7 @@ use serde_json::Value;
 use super::document::{Document, Drawing, Entries, Entry, Table, entries, rows};
 use super::files::{PAGE, REPORT};
 use super::plots::chart::{Chart, Dimension, Look};
+use crate::figures::share;
 use jobs::bond::{Held, HeldState};
 use jobs::design::Design;
 use jobs::output::Command;
@@ -45,7 +46,7 @@ fn answer(design: &Design, held: &Held) -> String {
     let at = format!(
         "at kT = {} and {} coverage",
         si(held.shaking.kt, "J", 4),
-        percent(held.shaking.coverage)
+        share(held.shaking.coverage)
     );
     if held.is_too_cold {
         return format!(
@@ -95,7 +96,7 @@ fn found_entries(design: &Design, held: &Held) -> Entries {
     let traps = found.split_off(1);
     entries(design)
         .fact("kT_J", "kT", shaking.kt)
-        .fact("coverage", "coverage", shaking.coverage).viewed(percent(shaking.coverage)).noted("share of the table")
+        .fact("coverage", "coverage", shaking.coverage).viewed(share(shaking.coverage)).noted("share of the table")
         .fact("tile_area_m2", "", held.tile_area)
         .fact("tiles_per_m2", "", shaking.coverage / held.tile_area)
         .fact("bond_kT", "depth of the bond", bond.docking.depth).viewed(in_kt(bond.docking.depth))
@@ -218,13 +219,5 @@ fn in_kt(value: f64) -> String {
     match value.is_finite() {
         true => format!("{value:.2} kT"),
         false => "-".to_owned(),
-    }
-}
-
-fn percent(share: f64) -> String {
-    let percent = 100.0 * share;
-    match percent >= 1.0 {
-        true => format!("{percent:.0} %"),
-        false => format!("{percent:.2} %"),
     }
 }

@@ -306,11 +306,9 @@ fn errors(fitted: &Residuals, held_out: &Residuals) -> Table {
     };
     let known = |k: &usize| fitted.rms[*k].is_some() || held_out.rms[*k].is_some();
     rows((0..QUANTITIES.len()).filter(known))
-        .column("", "measured", "", |k| QUANTITIES[*k].0)
-        .column("", "fitted", "root mean square", move |k| {
-            describe(fitted, *k)
-        })
-        .column("", "held out", "root mean square", move |k| {
+        .shown("measured", "", |k| QUANTITIES[*k].0)
+        .shown("fitted", "root mean square", move |k| describe(fitted, *k))
+        .shown("held out", "root mean square", move |k| {
             describe(held_out, *k)
         })
         .table("")

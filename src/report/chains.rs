@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::document::{Entries, Table, rows};
+use crate::figures::share_to;
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::yields::{Count, Mean, Outcome, Request, Rows};
 use physics::units::{duration, plain, si};
@@ -201,6 +202,7 @@ fn number(mean: &Mean) -> String {
     )
 }
 
+/// A share, of which intervals may exceed one.
 fn percent(share: f64) -> String {
-    format!("{} %", plain(100.0 * share.min(1.0), 2))
+    share_to(share.min(1.0), 2)
 }

@@ -83,9 +83,7 @@ impl Comparison {
             .data("certified_order", self.proved())
             .table(self.table());
         for number in 0..tables() {
-            let named = rows(&self.designs)
-                .column("", "design", "best first", |one| self.name(one))
-                .in_view();
+            let named = rows(&self.designs).shown("design", "best first", |one| self.name(one));
             all = all.table(views(named, number, |one| Some(one)).table("").in_view());
         }
         for (name, one, told) in self.firsts() {
@@ -260,10 +258,8 @@ impl Comparison {
             orders.push((heading, line));
         }
         rows(orders)
-            .column("", "figure", "", |(figure, _)| *figure)
-            .in_view()
-            .column("", "highest first", "", |(_, line)| line.clone())
-            .in_view()
+            .shown("figure", "", |(figure, _)| *figure)
+            .shown("highest first", "", |(_, line)| line.clone())
             .table("")
             .titled(
                 "Certified order",

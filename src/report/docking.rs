@@ -177,11 +177,10 @@ fn traps(problem: &Problem, docking: &Docking) -> Table {
         .column("caught", "caught", "share of all runs, 95 %", |it| {
             it.caught
         })
-        .column("", "", "", move |it| match is_bond(&it.configuration) {
+        .shown("", "", move |it| match is_bond(&it.configuration) {
             true => bond,
             false => "",
         })
-        .in_view()
         .table("traps")
         .titled(
             "Minima that catch tiles without a match",

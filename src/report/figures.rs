@@ -41,7 +41,7 @@ fn text(measure: Measure, reading: &Reading, unit: Option<f64>) -> String {
         (Measure::Energy, _) => energy(&estimate, unit),
         (Measure::Length, _) => format!("{:.1}", 1e3 * value),
         (Measure::Angle, _) => format!("{:.1}", value.to_degrees()),
-        (Measure::Share, _) => format!("{:.1} %", 100.0 * value),
+        (Measure::Share, _) => share_to_tenths(value),
         (Measure::Ratio, _) => format!("{value:.3}"),
         (Measure::Count, _) => format!("{value}"),
     };
@@ -111,6 +111,24 @@ impl Shown {
     /// The name of an axis: `energy (mJ)`.
     pub fn axis(&self) -> String {
         self.named(self.what)
+    }
+}
+
+/// `4.25 %`: a share with this number of significant digits.
+pub fn share_to(value: f64, digits: usize) -> String {
+    format!("{} %", plain(100.0 * value, digits))
+}
+
+/// `4.3 %`: a share to a tenth of a per cent.
+pub fn share_to_tenths(value: f64) -> String {
+    format!("{:.1} %", 100.0 * value)
+}
+
+/// `42 %`; two decimals below one percent.
+pub fn share(value: f64) -> String {
+    match 100.0 * value {
+        percent if percent > 0.0 && percent < 1.0 => format!("{percent:.2} %"),
+        percent => format!("{percent:.0} %"),
     }
 }
 

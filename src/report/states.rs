@@ -3,12 +3,12 @@
 
 use serde_json::{Value, json};
 
-use crate::document::{Link, Table, rows};
+use crate::document::{Link, Rows, Table, rows};
 use crate::names::{face_names, kind, pathway_file};
 use crate::plots::Scene;
 use jobs::design::Design;
 use jobs::pipeline::Analysis;
-use physics::landscape::{Barrier, Kind, Place, Proportion, State, StateKind};
+use physics::landscape::{Barrier, Catalogue, Kind, Proportion, State, StateKind};
 
 /// A state with its further data.
 pub struct Row<'a> {
@@ -70,12 +70,16 @@ impl<'a> Row<'a> {
     }
 }
 
-/// All states; for point dipoles with the energy of the blocks they represent, and the difference.
-/// `is_whole` says whether escapes of copies name their pathways.
+/// The columns of states, for programs and for people. `is_whole` says whether escapes of copies name
+/// their pathways.
 // One line a column.
 #[rustfmt::skip]
-pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
-    let names = analysis.catalogue.names();
+fn columns<'a>(catalogue: &'a Catalogue, states: impl IntoIterator<Item = Row<'a>>, is_whole: bool) -> Rows<'a, Row<'a>> {
+    let leads_to = |it: &Row| match it.escape.as_ref().map(|way| (why_no_way(way), way.to)) {
+        Some((Some(why), _)) => why.to_owned(),
+        Some((None, to)) => catalogue.name_of(to),
+        None => "-".to_owned(),
+    };
     let escape = move |row: &Row| -> Option<Value> {
         let mut entry = barriers([row.escape.as_ref()?]).json()[0].take();
         if !is_whole && row.state.id != row.state.class {
@@ -83,58 +87,53 @@ pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
         }
         Some(entry)
     };
-    rows(analysis.catalogue.states.iter().map(|state| Row::new(design, analysis, &names, state)))
-        .column("id", "", "", |it| it.state.id)
+    rows(states)
+        .column("id", "number", "", |it| it.state.id)
         .column("kind", "", "", |it| kind(it.state.kind))
-        .column("class", "", "lowest id among the states that symmetries map onto this one", |it| it.state.class)
-        .column("copies", "", "", |it| it.copies)
-        .column("pose", "", "", |it| it.state.configuration)
-        .column("energy_J", "", "", |it| it.state.energy)
+        .shown("kind", "", |it| if it.state.kind == StateKind::Bond { "bond" } else { "trap" })
+        .column("class", "class", "lowest id among the states that symmetries map onto this one", |it| it.state.class)
+        .column("copies", "copies", "copies by symmetry", |it| it.copies)
+        .column("pose", "x, y (mm), \u{3b8}", "of the copy nearest to the bond", |it| it.state.configuration)
+        .column("energy_J", "energy", "of the magnets, 0 far apart", |it| it.state.energy)
         // To the nearest lower state or to free.
-        .column("escape_J", "", "", |it| it.escape.as_ref().map(Barrier::forward)).in_csv()
+        .column("escape_J", "escape", "the lowest barrier out", |it| it.escape.as_ref().map(Barrier::forward)).in_csv()
         .column("escape_to", "", "", |it| it.way_out().map(|way| way.to)).in_csv()
-        .column("capture", "", "fraction of the far starts", |it| it.capture).sampled()
-        // Magnet pairs close to each other.
-        .column("attracting", "", "", |it| it.state.attracting)
-        .column("repelling", "", "", |it| it.state.repelling)
-        .column("faces", "", "", Row::pairs).in_csv()
+        .shown("leads to", "end of the lowest path", leads_to)
+        .column("capture", "captured", "fraction of the far starts that end in any of them", |it| it.capture).sampled()
+        .column("attracting", "attracting", "magnet pairs close together", |it| it.state.attracting)
+        .column("repelling", "repelling", "magnet pairs close together", |it| it.state.repelling)
+        .column("faces", "faces", "in contact", Row::pairs).in_csv()
         .column("faces", "", "", |it| json!(it.faces)).in_json()
-        .column("block_energy_J", "", "", |it| it.state.block_energy)
-        .column("dipole_error_J", "", "", |it| it.state.dipole_error()).in_csv()
-        .column("name", "", "", |it| it.name)
+        .column("block_energy_J", "energy of blocks", "in place of point dipoles", |it| it.state.block_energy)
+        .column("dipole_error_J", "error of dipoles", "", |it| it.state.dipole_error()).in_csv()
+        .column("name", "state", "letters by depth", |it| it.name)
         // It is proved that there is no way out.
-        .column("caged", "", "", Row::is_caged).in_csv()
+        .column("caged", "caged", "", Row::is_caged).in_csv()
         .column("escape", "", "", escape).in_json()
-        .table("states")
-        .in_file("states")
-        .in_data()
+}
+
+/// All states; for point dipoles with the energy of the blocks they represent, and the difference.
+/// `is_whole` says whether escapes of copies name their pathways.
+pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
+    let (catalogue, names) = (&analysis.catalogue, analysis.catalogue.names());
+    let states = catalogue.states.iter();
+    let states = states.map(|state| Row::new(design, analysis, &names, state));
+    let table = columns(catalogue, states, is_whole).table("states");
+    table.in_file("states").in_data()
 }
 
 /// The kinds of states, for people: one row for those that symmetry maps onto each other.
 // One line a column.
 #[rustfmt::skip]
 pub fn kinds(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
-    let names = scene.catalogue.names();
-    let kinds = scene.kinds();
-    let leads_to = |it: &Row| match it.escape.as_ref().map(|way| (why_no_way(way), way.to)) {
-        Some((Some(why), _)) => why.to_owned(),
-        Some((None, to)) => scene.name_of(to),
-        None => "-".to_owned(),
-    };
-    rows(kinds.iter().map(|kind| Row::of_kind(design, analysis, &names, kind)))
-        .column("", "state", "letters by depth", |it| it.name)
-        .column("", "kind", "", |it| if it.state.kind == StateKind::Bond { "bond" } else { "trap" })
-        .column("", "copies", "copies by symmetry", |it| it.copies)
-        .column("_J", "energy", "of the magnets, 0 far apart", |it| it.state.energy).digits(4)
-        .column("_J", "escape", "the lowest barrier out", |it| it.escape.as_ref().map(Barrier::forward)).digits(4)
-        .column("", "leads to", "end of the lowest path", leads_to)
-        .column("", "captured", "fraction of the far starts that end in any of them", |it| it.capture)
-        .column("pose", "x, y (mm), \u{3b8}", "of the copy nearest to the bond", |it| it.state.configuration)
-        .column("", "attracting", "magnet pairs close together", |it| it.state.attracting)
-        .column("", "repelling", "magnet pairs close together", |it| it.state.repelling)
-        .column("", "faces", "in contact", Row::pairs)
-        .table("")
-        .in_view()
+    let (names, kinds) = (scene.catalogue.names(), scene.kinds());
+    let states = kinds.iter().map(|kind| Row::of_kind(design, analysis, &names, kind));
+    columns(&analysis.catalogue, states, true)
+        .energies(4)
+        .view(&[
+            "state", "kind", "copies", "energy", "escape", "leads to", "captured", "x, y (mm), \u{3b8}",
+            "attracting", "repelling", "faces",
+        ])
         .on_page()
         .titled(
             "States",
@@ -147,20 +146,27 @@ pub fn kinds(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
 }
 
 /// Barriers with their bounds and pathways.
+pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
+    barrier_columns(barriers)
+        .table("barriers")
+        .in_file("barriers")
+        .in_data()
+}
+
 // One line a column.
 #[rustfmt::skip]
-pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
+fn barrier_columns<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Rows<'a, &'a Barrier> {
     let file = |it: &&Barrier| it.has_way().then(|| pathway_file(it));
     rows(barriers)
         .column("from", "", "", |it| it.from)
         .column("to", "", "", |it| it.to)
-        .column("saddle_energy_J", "saddle", "highest energy on the path", |it| it.saddle_energy)
+        .column("saddle_energy_J", "saddle", "highest energy on the best path found", |it| it.saddle_energy)
         // Null if no path is known, as is the file of the pathway, relative to the report.
         .column("saddle_pose", "", "", |it| it.has_way().then_some(it.saddle)).in_json()
         .column("lower_J", "", "proved bound of the saddle's energy", |it| it.bounds.lower)
         .column("upper_J", "", "proved bound of the saddle's energy", |it| it.bounds.upper)
-        .column("forward_J", "barrier", "saddle above the start", |it| it.forward())
-        .column("reverse_J", "barrier back", "saddle above the end", |it| it.reverse())
+        .column("forward_J", "barrier", "saddle above the start", |it| it.forward()).beside()
+        .column("reverse_J", "barrier back", "saddle above the end", |it| it.reverse()).beside()
         // Lowest and highest saddle energy over repeated runs; null for a single run.
         .column("spread_bounds_J", "", "", |it| it.spread.map(|spread| [spread.0, spread.1])).in_csv()
         .column("spread_J", "", "", |it| json!(it.spread)).in_json()
@@ -172,9 +178,6 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
         .column("work_J", "work", "sum of all climbs", |it| it.work().map(|work| work[0]))
         .column("reverse_work_J", "", "", |it| it.work().map(|work| work[1]))
         .column("length_m", "length", "of the path", |it| it.length())
-        .table("barriers")
-        .in_file("barriers")
-        .in_data()
 }
 
 /// The barriers for people; `way` gives the animated path of the page over a barrier.
@@ -182,19 +185,14 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
 #[rustfmt::skip]
 pub fn shown_barriers(analysis: &Analysis, scene: &Scene, way: impl Fn(&Barrier) -> Option<usize>) -> Table {
     let barriers = &analysis.catalogue.barriers;
-    let name = |place: Place| scene.name_of(place);
-    rows(barriers)
-        .column("", "from", "", |it| name(it.from))
-        .column("", "to", "", |it| name(it.to))
-        .column("_J", "saddle", "highest energy on the best path found", |it| it.saddle_energy).digits(4)
-        .column("_J", "barrier", "saddle above the start", |it| it.forward()).digits(4).beside()
-        .column("bounds_J", "certified", "proved bounds of the barrier", |it| it.certified().map(|(lower, upper)| [lower, upper])).digits(4).beside()
-        .column("_J", "barrier back", "saddle above the end", |it| it.reverse()).digits(4).beside()
-        .column("", "no way", "", |it| why_no_way(it))
-        .column("_J", "work", "sum of all climbs", |it| it.work().map(|work| work[0])).digits(4)
-        .column("_m", "length", "of the path", |it| it.length())
-        .table("")
-        .in_view()
+    let certified = |it: &&Barrier| it.certified().map(|(lower, upper)| [lower, upper]);
+    barrier_columns(barriers)
+        .shown("from", "", |it| scene.name_of(it.from))
+        .shown("to", "", |it| scene.name_of(it.to))
+        .column("bounds_J", "certified", "proved bounds of the barrier", certified).beside()
+        .shown("no way", "", |it| why_no_way(it))
+        .energies(4)
+        .view(&["from", "to", "saddle", "barrier", "certified", "barrier back", "no way", "work", "length"])
         .on_page()
         .titled(
             "Barriers",

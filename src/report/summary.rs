@@ -120,17 +120,16 @@ pub fn listed(design: &Design, analysis: &Analysis) -> Table {
     let out = |kind: &Kind| catalogue.escape_of_kind(problem, kind.first().class);
     let kinds = bond(analysis).into_iter().chain(traps(analysis).into_iter().take(LISTED));
     rows(kinds)
-        .column("", "state", "", |kind| name(catalogue, kind))
-        .column("", "captures", "", |kind| kind.captured())
+        .shown("state", "", |kind| name(catalogue, kind))
+        .shown("captures", "", |kind| kind.captured())
         .column("_J", "energy", "", |kind| kind.first().energy).digits(DIGITS)
         .column("_J", "escape", "", |kind| out(kind).filter(|way| way.has_way()).map(|way| way.forward())).digits(DIGITS)
         .column("bounds_J", "certified", "", |kind| certified(out(kind)?)).digits(DIGITS).beside()
-        .column("", "to", "", |kind| escape(catalogue, out(kind)))
-        .column("", "x, y (mm), theta, faces", "", |kind| {
+        .shown("to", "", |kind| escape(catalogue, out(kind)))
+        .shown("x, y (mm), theta, faces", "", |kind| {
             format!("{}, {}", pose(&kind.first().configuration), faces(design, kind))
         })
-        .table("")
-        .in_view()
+        .table("").in_view()
         .on_terminal()
 }
 

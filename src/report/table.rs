@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use crate::assembly::grown_with_errors;
 use crate::chains;
 use crate::document::{Document, Drawing, Entries, Part, Table, rows};
+use crate::figures::share_to;
 use crate::gsd::{self, Particle};
 use crate::page::Crowd;
 use crate::plots::chart::{Chart, Dimension, Look, Point};
@@ -107,7 +108,7 @@ fn meaning(about: &About, found: &Found) -> String {
     match (found.statistics.verdict, has) {
         (Verdict::Thermal, Some(has)) if found.statistics.is_undecided() => format!(
             "(possibly thermal: {has}, with a statistical error of {}; simulate for longer to decide)",
-            share(found.statistics.kinetic_error)
+            share_to(found.statistics.kinetic_error, 2)
         ),
         (Verdict::Thermal, Some(has)) => format!("(thermal: {has})"),
         (Verdict::Frozen, Some(has)) => format!(
@@ -223,8 +224,8 @@ fn in_pairs(question: &yields::Request, [low, high]: [f64; 2]) -> String {
     format!(
         "of {} pairs; between {} and {}",
         question.tiles / 2,
-        share(low),
-        share(high)
+        share_to(low, 2),
+        share_to(high, 2)
     )
 }
 
@@ -267,12 +268,16 @@ fn against_yield(found: &Found, question: &yields::Request, yields: &Yields) -> 
     let bonds = describe_agreement(agree(here, best.interval));
     format!(
         "`tilebind yield` predicts that {} are bound ({}), and here are {}{bonds}{trapped}",
-        share(best.bound),
+        share_to(best.bound, 2),
         in_pairs(question, best.interval),
         match (here.low, here.high) {
-            (Some(low), Some(high)) =>
-                format!("{} ({} to {})", share(here.mean), share(low), share(high)),
-            _ => share(here.mean),
+            (Some(low), Some(high)) => format!(
+                "{} ({} to {})",
+                share_to(here.mean, 2),
+                share_to(low, 2),
+                share_to(high, 2)
+            ),
+            _ => share_to(here.mean, 2),
         }
     )
 }
@@ -308,7 +313,7 @@ fn notes(found: &Found, request: &Request) -> Vec<String> {
     let statistics = &found.statistics;
     let mut notes = vec![format!(
         "energy balance: {} of the largest term is missing; steps of {} or shorter",
-        share(statistics.energy_error),
+        share_to(statistics.energy_error, 2),
         si(statistics.step, "s", 3)
     )];
     if let Some(Shard { number, of }) = request.shard {
@@ -324,22 +329,18 @@ fn notes(found: &Found, request: &Request) -> Vec<String> {
              tile moved too far in one step",
             statistics.halved,
             found.runs.len(),
-            share(ACCOUNTED)
+            share_to(ACCOUNTED, 2)
         ));
     }
     if statistics.energy_error > ACCOUNTED {
         notes.push(format!(
             "warning: {} of the energy is missing, more than {}: do not trust these results; choose a \
              shorter --step",
-            share(statistics.energy_error),
-            share(ACCOUNTED)
+            share_to(statistics.energy_error, 2),
+            share_to(ACCOUNTED, 2)
         ));
     }
     notes
-}
-
-fn share(share: f64) -> String {
-    format!("{} %", plain(100.0 * share, 2))
 }
 
 fn interval(interval: &Interval) -> Value {

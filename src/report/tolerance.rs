@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::document::{Document, Drawing, Entries, Table, entries, rows};
 use super::files::{PAGE, REPORT};
 use super::plots::chart::{Chart, Dimension, Look};
+use crate::figures::{share_to, share_to_tenths};
 use jobs::design::Design;
 use jobs::output::Command;
 use jobs::tolerance::{Outcome, Spread, Tolerance};
@@ -68,7 +69,7 @@ fn answer(design: &Design, found: &Tolerance) -> String {
 /// The errors, for people.
 fn errors(found: &Tolerance) -> String {
     let making = &found.making;
-    let percent = |share: f64| format!("{} %", plain(100.0 * share, 3));
+    let percent = |share: f64| share_to(share, 3);
     let parts = [
         making
             .strength
@@ -178,14 +179,13 @@ fn reasons(found: &Tolerance) -> Table {
 
 #[rustfmt::skip]
 fn matters(found: &Tolerance) -> Table {
-    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     rows(found.matters.clone())
         .column("magnet", "magnet", "a magnet, or a face for gaps; counted along the face", |it| it.magnet.clone())
         .column("error", "error", "kind of error", |it| it.error)
         .column("share_of_variance", "of the bond", "share of the variance of the bond's energy, to first order", |it| it.of_bond)
-            .viewed(move |it| percent(it.of_bond))
+            .viewed(move |it| share_to_tenths(it.of_bond))
         .column("share_of_selectivity_variance", "of selectivity", "share of the variance of ln(selectivity), to first order", |it| it.of_selectivity)
-            .viewed(move |it| it.of_selectivity.map_or("-".to_owned(), percent))
+            .viewed(move |it| it.of_selectivity.map_or("-".to_owned(), share_to_tenths))
         .column("sd_J", "spread", "standard deviation of the bond's energy by it alone", |it| it.sd)
         .table("matters").titled("What matters most", "").in_file("matters").listing(LISTED)
 }
@@ -230,7 +230,7 @@ fn draws(found: &Tolerance) -> Table {
 }
 
 fn notes(design: &Design, found: &Tolerance) -> Vec<String> {
-    let percent = |share: f64| format!("{} %", plain(100.0 * share, 2));
+    let percent = |share: f64| share_to(share, 2);
     let [followed, of] = found.followed;
     let exact = &found.exact;
     let traps = exact.trap.map_or(String::new(), |[rms, most]| {

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use crate::chains;
 use crate::columns::{Unit, describe};
 use crate::document::{Document, Drawing, Entries, Table, entries, rows};
+use crate::figures::share as percent;
 use crate::files::{PAGE, REPORT};
 use crate::plots::chart::{Chart, Dimension, Look, Point};
 use jobs::design::Design;
@@ -458,11 +459,4 @@ fn schedule(request: &Request, found: &Yields, tiles: usize, mixture: &Mixture) 
 fn within(share: f64, interval: [f64; 2]) -> String {
     let [low, high] = interval.map(|end| percent(end).replace(" %", ""));
     format!("{} ({low}-{high})", percent(share))
-}
-
-fn percent(share: f64) -> String {
-    match 100.0 * share {
-        percent if percent > 0.0 && percent < 1.0 => format!("{percent:.2} %"),
-        percent => format!("{percent:.0} %"),
-    }
 }

@@ -53,24 +53,24 @@ pub(super) fn sheet(assembly: &Assembly) -> String {
         }
     };
     let tiles = rows(set.tiles.iter().enumerate())
-        .column("", "tile", "", |it: &(usize, &TileType)| it.1.name.clone())
-        .column("", "how many", "", |it| counts[it.0])
-        .column("", "magnets per tile", "", |it| magnets(it.0))
-        .column("", "north", "", face(0))
-        .column("", "east", "", face(1))
-        .column("", "south", "", face(2))
-        .column("", "west", "", face(3));
+        .shown("tile", "", |it: &(usize, &TileType)| it.1.name.clone())
+        .shown("how many", "", |it| counts[it.0])
+        .shown("magnets per tile", "", |it| magnets(it.0))
+        .shown("north", "", face(0))
+        .shown("east", "", face(1))
+        .shown("south", "", face(2))
+        .shown("west", "", face(3));
     let code = |word: usize| built.matrix.words[word];
     let axis = |axis: Axis| match axis {
         Axis::Horizontal => "word east, mate west",
         Axis::Vertical => "word north, mate south",
     };
     let words = rows(built.wiring.bonds.iter().enumerate())
-        .column("", "word", "", |it| assembly.face(it.0))
-        .column("", "code", "", |it| code(it.0).to_string())
-        .column("", "mate", "", |it| code(it.0).mate().to_string())
-        .column("", "axis", "", |it| axis(it.1.axis))
-        .column("", "bond", "", |it| si(built.matrix.bond(it.0), "J", 4));
+        .shown("word", "", |it| assembly.face(it.0))
+        .shown("code", "", |it| code(it.0).to_string())
+        .shown("mate", "", |it| code(it.0).mate().to_string())
+        .shown("axis", "", |it| axis(it.1.axis))
+        .shown("bond", "", |it| si(built.matrix.bond(it.0), "J", 4));
     let [tiles, words] = [tiles.table("tiles"), words.table("words")];
     let [tiles, words] = [tiles, words].map(|table| markdown_table(&table.texts()));
     text + &tiles + "\n## Words\n\n" + &words

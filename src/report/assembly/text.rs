@@ -1,5 +1,6 @@
 //! The text of an assembly's summary.
 
+use crate::figures::share_to_tenths;
 use jobs::assembly::built::{MOST_MEETINGS, Shaken, Verdict as Growth};
 use jobs::assembly::choice::{Choice, Verdict};
 use jobs::assembly::kinetic::Growth as Kinetic;
@@ -428,7 +429,7 @@ fn found(assembly: &Assembly) -> Option<String> {
 
 /// How much deeper bonds are between whole tiles, from the smallest to the largest difference.
 fn whole(ends: [f64; 2]) -> String {
-    let [least, most] = ends.map(|share| format!("{:.1} %", 100.0 * share.abs()));
+    let [least, most] = ends.map(|share| share_to_tenths(share.abs()));
     // A difference below a tenth of a per cent is ignored.
     let told = match (ends[0] < -5e-4, ends[1] > 5e-4) {
         (true, true) => format!("from {least} shallower to {most} deeper"),

@@ -66,6 +66,16 @@ impl<'a, Row> Rows<'a, Row> {
         self
     }
 
+    /// Adds a column for people alone: its name, its meaning, and its value in a row.
+    pub fn shown<C: Into<Cell>>(
+        self,
+        name: impl Into<Cow<'static, str>>,
+        meaning: &'static str,
+        get: impl Fn(&Row) -> C + 'a,
+    ) -> Self {
+        self.column("", name, meaning, get).in_view()
+    }
+
     /// Sets the text of the last column for people, if that is more than the value.
     pub fn viewed(mut self, view: impl Fn(&Row) -> String + 'a) -> Self {
         if let Some(column) = self.columns.last_mut() {
@@ -98,7 +108,7 @@ impl<'a, Row> Rows<'a, Row> {
 
     /// Marks the last column as sampled shares.
     pub fn sampled(self) -> Self {
-        self.last(|head| (head.unit, head.parts) = (Unit::Share, Parts::Sampled))
+        self.last(|head| head.parts = Parts::Sampled)
     }
 
     /// Restricts the last column to programs.
@@ -129,6 +139,25 @@ impl<'a, Row> Rows<'a, Row> {
     /// Restricts the last column to the page.
     pub fn on_page(self) -> Self {
         self.in_view().last(|head| head.is_printed = false)
+    }
+
+    /// Sets the number of digits of all energies for people.
+    pub fn energies(mut self, digits: usize) -> Self {
+        let heads = self.columns.iter_mut().map(|column| &mut column.head);
+        let energies = heads.filter(|head| head.unit == Unit::Of("J"));
+        energies.for_each(|head| head.digits = digits);
+        self
+    }
+
+    /// A table for people alone: of the columns with these names, in this order.
+    pub fn view(mut self, names: &[&str]) -> Table {
+        let place = |column: &Column<Row>| names.iter().position(|name| *name == column.head.name);
+        self.columns.retain(|column| place(column).is_some());
+        self.columns.sort_by_key(place);
+        for column in &mut self.columns {
+            column.head.is_viewed = true;
+        }
+        self.table("").in_view()
     }
 
     /// The finished table, with its key in JSON.

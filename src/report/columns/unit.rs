@@ -1,5 +1,6 @@
 //! Units of quantities, and how they are printed for people.
 
+use crate::figures::share;
 use physics::units::{duration, plain, prefix_and_decimals, si};
 
 /// The unit of a quantity.
@@ -125,13 +126,5 @@ impl Scale {
             true => "0".to_owned(),
             false => text,
         }
-    }
-}
-
-/// `42 %`; two decimals below one percent.
-fn share(value: f64) -> String {
-    match 100.0 * value {
-        percent if percent > 0.0 && percent < 1.0 => format!("{percent:.2} %"),
-        percent => format!("{percent:.0} %"),
     }
 }

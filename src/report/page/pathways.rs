@@ -121,10 +121,10 @@ pub fn table(played: &[Played]) -> Table {
     };
     let shown: Vec<usize> = (0..played.len()).filter(|&k| between(&played[k])).collect();
     rows(shown.iter().map(|&k| &played[k]))
-        .column("", "way", "start and end", |way| {
+        .shown("way", "start and end", |way| {
             way.name.split(',').next().unwrap_or_default().to_owned()
         })
-        .column("", "criterion", "", |way| way.by)
+        .shown("criterion", "", |way| way.by)
         .column("_J", "barrier", "maximum energy above the start", |way| {
             way.climb()
         })

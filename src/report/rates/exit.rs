@@ -4,13 +4,14 @@ use serde_json::{Value, json};
 
 use super::told::{SCOPE, digits, finite};
 use crate::document::{Document, Entries, Entry, Table, entries, rows};
+use crate::figures::{share_to, share_to_tenths};
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;
 use jobs::rates::PoseExit;
 use physics::dynamics::exits::ExitRuns;
 use physics::kinetics::rates::exit::MeshExit;
 use physics::kinetics::{OVERDAMPED, Way};
-use physics::units::{duration, plain, si};
+use physics::units::{duration, si};
 
 /// The document of an exit, with the check by moving tiles if requested.
 pub fn document<'a>(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> Document<'a> {
@@ -23,8 +24,8 @@ pub fn document<'a>(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) 
              first with probability {}, free first with {}",
             design.name,
             duration(exit.mean(), known_digits(exit)),
-            percent(finest.bound),
-            percent(1.0 - finest.bound),
+            share_to_tenths(finest.bound),
+            share_to_tenths(1.0 - finest.bound),
         ),
         remarks: vec![format!(
             "(kT = {}, drag {} /s: D = {}; mean exit time times D = {}; bound: U < {} in the \
@@ -44,10 +45,6 @@ pub fn document<'a>(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) 
     }
 }
 
-fn percent(share: f64) -> String {
-    format!("{:.1} %", 100.0 * share)
-}
-
 fn known_digits(exit: &PoseExit) -> usize {
     digits(exit.error())
 }
@@ -64,8 +61,8 @@ fn found_entries(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> 
         // Nothing is proved about an exit: the key stays for those who read it.
         .data("mean_exit_bounds_s", Value::Null)
         .group("exits", Entries::default()
-            .fact("bound", "bound first", finest.bound).viewed(percent(finest.bound)).noted("probability")
-            .fact("free", "free first", 1.0 - finest.bound).viewed(percent(1.0 - finest.bound)).noted("probability"))
+            .fact("bound", "bound first", finest.bound).viewed(share_to_tenths(finest.bound)).noted("probability")
+            .fact("free", "free first", 1.0 - finest.bound).viewed(share_to_tenths(1.0 - finest.bound)).noted("probability"))
         .fact("kt_J", "kT", asked.kt).noted(format!("drag {} /s", exit.drag))
         .fact("drag_per_s", "", exit.drag)
         .fact("start", "start", asked.start).noted("x (mm), y (mm), theta")
@@ -87,10 +84,10 @@ fn meshes(exit: &PoseExit) -> Table {
     rows(&exit.found.meshes)
         .column("unknowns", "unknowns", "of the mesh, each finer than the one before", |mesh| mesh.unknowns)
         .column("mean_exit_s", "mean exit time", "", |mesh| mesh.time / exit.diffusion)
-        .column("bound", "bound first", "probability", |mesh| mesh.bound).viewed(|mesh| percent(mesh.bound))
-        .column("error", "error of flows", "estimated, relative", |mesh| mesh.error).viewed(|mesh| percent(mesh.error))
+        .column("bound", "bound first", "probability", |mesh| mesh.bound).viewed(|mesh| share_to_tenths(mesh.bound))
+        .column("error", "error of flows", "estimated, relative", |mesh| mesh.error).viewed(|mesh| share_to_tenths(mesh.error))
         .column("of_basins", "of basins", "effect of making the basin of whole cells", |mesh| mesh.of_rims)
-            .viewed(|mesh| percent(mesh.of_rims))
+            .viewed(|mesh| share_to_tenths(mesh.of_rims))
         .table("meshes").titled("Meshes", "").in_file("meshes")
 }
 
@@ -132,7 +129,7 @@ fn by_mesh(exit: &PoseExit) -> Chart {
 /// The estimated error of the mean exit time.
 fn describe_error(exit: &PoseExit) -> String {
     match exit.error() {
-        error if error.is_finite() => format!("± {} %, estimated", plain(100.0 * error, 2)),
+        error if error.is_finite() => format!("± {}, estimated", share_to(error, 2)),
         _ => "error unknown".to_owned(),
     }
 }

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::told::{SCOPE, digits, finite};
 use crate::document::{Document, Drawing, Entries, Entry, Table, entries, rows};
+use crate::figures::share_to;
 use crate::plots::chart::{Chart, Dimension, Look};
 use crate::plots::committor::committor;
 use jobs::design::Design;
@@ -61,11 +62,6 @@ fn per_second(rate: f64, digits: usize) -> String {
     format!("{} /s", plain(rate, digits))
 }
 
-/// A share to three digits: 1 - 1e-9 is known no better than 1.
-fn share(part: f64) -> String {
-    format!("{} %", plain(100.0 * part, 3))
-}
-
 /// The number of known digits of a rate, estimated from meshes.
 fn digits_of(found: &StateRates, from: usize, to: usize) -> usize {
     digits(found.error(from, to))
@@ -98,7 +94,7 @@ fn describe_error(found: &StateRates, place: usize) -> String {
 
 /// A relative error.
 fn either_way(error: f64) -> String {
-    format!("± {} %", plain(100.0 * error, 2))
+    format!("± {}", share_to(error, 2))
 }
 
 /// The region of the landscape that a place stands for.
@@ -143,7 +139,8 @@ fn found_entries(design: &Design, found: &StateRates, seed: u64) -> Entries {
 fn places(found: &StateRates) -> Table {
     let of = |get: fn(&RatedState) -> f64| move |k: &usize| found.states.get(*k).map(get);
     let shared = |part: fn(&StateRates, usize) -> f64| move |k: &usize| found.known_share(*k, part(found, *k));
-    let describe = |part: Option<f64>| part.map_or("-".to_owned(), share);
+    // 1 - 1e-9 is known no better than 1.
+    let describe = |part: Option<f64>| part.map_or("-".to_owned(), |part| share_to(part, 3));
     let occupation = shared(|it, k| it.found.finest().occupation[k]);
     let inside = shared(|it, k| it.found.inside[k]);
     rows(0..found.count())

@@ -106,9 +106,11 @@ impl Sweep<'_> {
         });
         let points = self.points.iter();
         let of = |(_, one): &(&Point, Option<&'a Assessment>)| *one;
-        let mut table = rows(points.map(|point| (point, self.assessment(point.index))))
-            .column("", "point", "", |(point, _)| self.called(point))
-            .in_view();
+        let mut table = rows(points.map(|point| (point, self.assessment(point.index)))).shown(
+            "point",
+            "",
+            |(point, _)| self.called(point),
+        );
         for key in COLUMNS {
             let shown = quantity(key);
             table = view(table, shown.label, vec![shown], of);
@@ -118,14 +120,7 @@ impl Sweep<'_> {
                     let value = by.of((*one)?)?.value / base;
                     value.is_finite().then_some(value)
                 };
-                table = table
-                    .column(
-                        "",
-                        format!("x {}", self.called(&self.points[index])),
-                        "",
-                        ratio,
-                    )
-                    .in_view();
+                table = table.shown(format!("x {}", self.called(&self.points[index])), "", ratio);
             }
         }
         for (place, of_place) in placed(|quantity| quantity.column) {
@@ -134,7 +129,7 @@ impl Sweep<'_> {
             }
         }
         table
-            .column("", "impossible", "", |(point, _)| {
+            .shown("impossible", "", |(point, _)| {
                 self.reason(point.index).map(str::to_owned)
             })
             .on_page()

@@ -6,6 +6,7 @@ use super::search_pictures::drawings;
 use super::searched::Searched;
 use crate::assessments::{capture_settings, checked, merge, view};
 use crate::document::{Document, Entries, Part, Table, rows};
+use crate::figures::share_to_tenths;
 use crate::page::Charts;
 use crate::points::{Sweep, said};
 use jobs::comparison::Quantity;
@@ -313,19 +314,17 @@ impl Searched<'_> {
             Outcome::Done { result } => Some(&**result),
             _ => None,
         };
-        let mut table = rows(self.order().into_iter().map(|index| (index, result(index))))
-            .column("", "point", "", |(index, _)| {
-                sweep.called(&self.found.tried[*index].point)
-            })
-            .in_view();
+        let mut table = rows(self.order().into_iter().map(|index| (index, result(index)))).shown(
+            "point",
+            "",
+            |(index, _)| sweep.called(&self.found.tried[*index].point),
+        );
         for quantity in self.quantities() {
             table = view(table, quantity.label, vec![quantity], |(_, one)| *one);
         }
         table
-            .column("", "verdict", "", |(index, _)| self.verdicts[*index].name())
-            .in_view()
-            .column("", "why", "", |(index, _)| self.why(sweep, *index))
-            .in_view()
+            .shown("verdict", "", |(index, _)| self.verdicts[*index].name())
+            .shown("why", "", |(index, _)| self.why(sweep, *index))
             .table("")
             .in_view()
             .listing(LISTED)
@@ -362,16 +361,11 @@ impl Searched<'_> {
             _ => "",
         };
         rows(effects)
-            .column("", "key", "", name)
-            .in_view()
-            .column("", "best", "", own)
-            .in_view()
-            .column("", "a step down", "", step(0))
-            .in_view()
-            .column("", "a step up", "", step(1))
-            .in_view()
-            .column("", "remark", "", remark)
-            .in_view()
+            .shown("key", "", name)
+            .shown("best", "", own)
+            .shown("a step down", "", step(0))
+            .shown("a step up", "", step(1))
+            .shown("remark", "", remark)
             .table("")
             .in_view()
             .titled(
@@ -411,14 +405,10 @@ impl Searched<'_> {
             }
         };
         rows(directions)
-            .column("", "keys", "", names)
-            .in_view()
-            .column("", "first down", "", step(0))
-            .in_view()
-            .column("", "first up", "", step(1))
-            .in_view()
-            .column("", "remark", "", remark)
-            .in_view()
+            .shown("keys", "", names)
+            .shown("first down", "", step(0))
+            .shown("first up", "", step(1))
+            .shown("remark", "", remark)
             .table("")
             .in_view()
             .titled(
@@ -440,7 +430,7 @@ pub fn figure(quantity: &Quantity, interval: &Interval) -> String {
         Measure::Energy => si(value, "J", DIGITS),
         Measure::Length => si(value, "m", DIGITS),
         Measure::Angle => format!("{:.1}\u{b0}", value.to_degrees()),
-        Measure::Share => format!("{:.1} %", 100.0 * value),
+        Measure::Share => share_to_tenths(value),
         Measure::Ratio => format!("{value:.3}"),
         Measure::Count => format!("{value}"),
     };

@@ -220,9 +220,9 @@ fn sheets(made: &Made) -> Option<[Table; 2]> {
         .in_file("nested")
         .in_data();
     let sheets = rows((1..).zip(&made.sheets))
-        .column("", "sheet", "", |it: &(usize, &Sheet)| format!("nested-{}", it.0)).in_view()
-        .column("", "material (mm)", "its thickness", |it| plain(it.1.thickness)).in_view()
-        .column("", "parts", "with their numbers as engraved; layer 1 is the lowest", |it| parts(made, it.1)).in_view()
+        .shown("sheet", "", |it: &(usize, &Sheet)| format!("nested-{}", it.0))
+        .shown("material (mm)", "its thickness", |it| plain(it.1.thickness))
+        .shown("parts", "with their numbers as engraved; layer 1 is the lowest", |it| parts(made, it.1))
         .table("")
         .titled("Parts on sheets", "places in nested.csv");
     let sheets = Table { is_data: false, ..sheets };
