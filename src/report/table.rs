@@ -482,14 +482,13 @@ fn aim(about: &About, found: &Found) -> &'static str {
     }
 }
 
+/// The time between kicks is null without them.
 fn settings(settings: &TableSettings) -> Value {
-    json!({
-        "time_s": settings.duration, "drag_per_s": settings.drag, "friction": settings.friction,
-        "restitution": settings.restitution, "shaking_J": settings.shaking,
-        "correlation_s": settings.shaking.map(|_| settings.kicks), "orbital": settings.orbital,
-        "linear": settings.linear, "table_friction": settings.table_friction, "fans": settings.fans, "step_s": settings.step, "sampling_s": settings.sampling,
-        "walls": settings.walls,
-    })
+    let mut all = json!(settings);
+    if settings.shaking.is_none() {
+        all["correlation_s"] = Value::Null;
+    }
+    all
 }
 
 fn lifetime(lifetime: &Lifetime) -> Value {

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::Quantity;
 use crate::design::Design;
 use crate::pipeline::{self, Certify, Check, Survey};
-use crate::request::{self, Misused, of_keywords};
+use crate::request::{self, Misused, of_keywords, options};
 use crate::tolerance::{MakingErrors, NO_ERRORS};
 use physics::landscape::Claims;
 
@@ -114,17 +114,12 @@ impl Thoroughness {
             return Ok(());
         };
         let given = settings.into_iter().filter(|(_, value)| !value.is_null());
+        // Their names are in the keys, with units or a word on what is meant.
+        let known = options::<Self>();
         let option = |(key, value): (String, Value)| {
-            let option = match &key[..] {
-                "tolerance_J" => "tolerance",
-                "most_kinds" => "kinds",
-                "place_m" => "place",
-                "turn_rad" => "turn",
-                "gap_m" => "gap",
-                "least_selectivity" => "selectivity",
-                other => other,
-            };
-            (option.to_owned(), vec![value.to_string()])
+            let named = known.iter().filter(|name| key.contains(&name[..]));
+            let option = named.max_by_key(|name| name.len()).unwrap_or(&key);
+            (option.clone(), vec![value.to_string()])
         };
         of_keywords::<Self>(given.map(option)).map(drop)
     }
@@ -147,5 +142,34 @@ impl Thoroughness {
             claims: Claims::BondAndDeepestTrap,
             ..pipeline::Request::default()
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_of_a_file_are_named_as_options() {
+        let wrong = [
+            ("kinds = 0: ", r#""most_kinds": 0"#),
+            ("tolerance = 0.0: ", r#""tolerance_J": 0.0"#),
+            ("place = 1.0: ", r#""place_m": 1.0"#),
+            ("turn = 3.0: ", r#""turn_rad": 3.0"#),
+            ("gap = 1.0: ", r#""gap_m": 1.0"#),
+            ("selectivity = 0.0: ", r#""least_selectivity": 0.0"#),
+            ("settled = 2.0: ", r#""settled": 2.0"#),
+        ];
+        for (told, setting) in wrong {
+            let mut settings = json!(Thoroughness::default());
+            let given: Value = serde_json::from_str(&format!("{{{setting}}}")).unwrap();
+            for (key, value) in given.as_object().unwrap() {
+                settings[key] = value.clone();
+            }
+            let settings: Thoroughness = serde_json::from_value(settings).unwrap();
+            let error = settings.check().unwrap_err().to_string();
+            assert!(error.starts_with(told), "{error}");
+        }
+        Thoroughness::default().check().unwrap();
     }
 }

@@ -48,33 +48,39 @@ impl Linear {
     }
 }
 
-/// Settings of the table, the drives and the numerics.
+/// Settings of the table, the drives and the numerics; in reports their names end in units.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct TableSettings {
     /// Duration of a run (s).
+    #[serde(rename = "time_s")]
     pub duration: f64,
     /// Drag rate c (1/s) of every degree of freedom, relative to the table.
+    #[serde(rename = "drag_per_s")]
     pub drag: f64,
     /// Coulomb's coefficient of friction between tiles, and between a tile and the rim.
     pub friction: f64,
-    /// Coulomb's coefficient of friction between a tile and the table it lies on.
-    pub table_friction: f64,
     /// Coefficient of restitution.
     pub restitution: f64,
     /// Effective energy kT (J) of shaking.
+    #[serde(rename = "shaking_J")]
     pub shaking: Option<f64>,
     /// Time (s) between two random kicks of shaking.
+    #[serde(rename = "correlation_s")]
     pub kicks: f64,
     /// The table's own motion in a circle.
     pub orbital: Option<Orbital>,
     /// The table's own motion along a line.
     pub linear: Option<Linear>,
+    /// Coulomb's coefficient of friction between a tile and the table it lies on.
+    pub table_friction: f64,
     /// Fans that push tiles.
     pub fans: Vec<Fan>,
     /// Longest step (s). Steps in contact are shorter, as forces and speeds require, and scale with
     /// this.
+    #[serde(rename = "step_s")]
     pub step: f64,
     /// Time between two samples (s).
+    #[serde(rename = "sampling_s")]
     pub sampling: f64,
     /// Whether the table has a rim.
     pub walls: bool,
