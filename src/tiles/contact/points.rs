@@ -8,11 +8,13 @@
 //!   edges of a notch are outside; so a corner that slides along a chain of chords is stopped by
 //!   the next chord exactly where it begins to rise, and never by the end of a chord;
 //! - or a *convex corner* of the other. There the edges' lines do not hold beyond their ends: a
-//!   corner may pass. Two such corners give one point: if each is closest to the other, along the
-//!   line between them; otherwise along the normal of the one of their four edges that separates
-//!   the two corners most (separating axis theorem, with corners cut off at twice the margin).
+//!   corner may pass. A corner that lies beside an edge of the other meets this edge; if each is
+//!   closest to the other, they meet along the line between them. Gaps are distances, so they and
+//!   the normals are continuous where a corner slides past the end of an edge. A corner inside the
+//!   other tile meets the edge that separates the two corners most (separating axis theorem).
 
 use nalgebra::{Rotation2, Vector2};
+use ordered_float::OrderedFloat;
 
 use super::Contact;
 use super::shape::SearchedOutline;
@@ -24,6 +26,8 @@ use crate::tile::outline::distance_to_segment;
 /// whether the corner is inside the tile, or behind one edge but in front of another, past a sharp
 /// corner.
 const SHALLOW: f64 = 0.1;
+/// The edges of two corners lie along each other if the cosine of the angle of their normals is above this.
+const ALIKE: f64 = 0.9;
 
 /// A point of contact, or of an imminent one, in the fixed tile's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,72 +141,126 @@ impl Contact {
         );
         corners.sort_unstable();
         corners.dedup();
-        let between = corners
-            .iter()
-            .map(|&pair| self.between_corners(pair, (rotation, position), 2.0 * margin));
-        found.extend(between.filter(|point| point.gap <= margin));
+        for pair in corners {
+            self.between_corners(pair, (rotation, position), margin, &mut found);
+        }
         found
     }
 
-    /// The point of two convex corners, of the fixed and of the moving tile.
+    /// The points of two convex corners, of the fixed and of the moving tile.
     fn between_corners(
         &self,
         [k, i]: [usize; 2],
         (rotation, position): Placed,
-        reach: f64,
-    ) -> ContactPoint {
-        let fixed = self.fixed.corner(k, reach);
-        let moving = self
-            .moving
-            .corner(i, reach)
-            .map(|p| position + rotation * p);
-        let ([b, ..], [p, ..]) = (fixed, moving);
-        let away = p - b;
-        let faces = |corner: &[Vector2<f64>; 3], toward: &Vector2<f64>| {
-            corner[1..]
-                .iter()
-                .all(|end| (end - corner[0]).dot(toward) < 0.0)
-        };
-        let distance = away.norm();
-        if distance > 0.0 && faces(&fixed, &away) && faces(&moving, &-away) {
-            return ContactPoint {
-                on_moving: p,
-                normal: away / distance,
-                gap: distance,
-                turns_with: TurnsWith::Line,
-            };
-        }
-        // The largest separation over the four edges, the moving tile's point there, and the normal.
-        let nearest = |points: &[Vector2<f64>; 3], normal: &Vector2<f64>, from: &Vector2<f64>| {
-            let gaps = points.map(|x| (normal.dot(&(x - from)), x));
-            let first = gaps[0];
-            gaps[1..]
-                .iter()
-                .fold(first, |a, b| if b.0 < a.0 { *b } else { a })
-        };
-        let of_fixed = [k, self.fixed.before(k)].map(|edge| {
-            let normal = self.fixed.outline.normals()[edge];
-            let (gap, on_moving) = nearest(&moving, &normal, &b);
-            ContactPoint {
-                on_moving,
+        margin: f64,
+        found: &mut Vec<ContactPoint>,
+    ) {
+        let fixed = Wedge::new(&self.fixed, k, &(Rotation2::identity(), Vector2::zeros()));
+        let moving = Wedge::new(&self.moving, i, &(rotation, position));
+        let away = moving.corner - fixed.corner;
+        let on_fixed = fixed
+            .meets(&moving, margin)
+            .map(|(normal, gap)| ContactPoint {
+                on_moving: moving.corner,
                 normal,
                 gap,
                 turns_with: TurnsWith::Behind,
-            }
-        });
-        let of_moving = [i, self.moving.before(i)].map(|edge| {
-            let normal = rotation * self.moving.outline.normals()[edge];
-            let (gap, on_fixed) = nearest(&fixed, &normal, &p);
-            ContactPoint {
-                on_moving: on_fixed - normal * gap,
+            });
+        let on_moving = moving
+            .meets(&fixed, margin)
+            .map(|(normal, gap)| ContactPoint {
+                on_moving: fixed.corner - normal * gap,
                 normal: -normal,
                 gap,
                 turns_with: TurnsWith::InFront,
+            });
+        match (on_fixed, on_moving) {
+            // Only one of the two stops the corners: the nearer one, or the way out of an overlap.
+            (Some(one), Some(other)) if one.normal.dot(&other.normal) < ALIKE => {
+                let [low, high] = if one.gap < other.gap {
+                    [one, other]
+                } else {
+                    [other, one]
+                };
+                found.push(if high.gap < 0.0 { high } else { low });
             }
-        });
-        let [first, rest @ ..] = [of_fixed[0], of_fixed[1], of_moving[0], of_moving[1]];
-        rest.into_iter()
-            .fold(first, |a, b| if b.gap > a.gap { b } else { a })
+            (one, other) => found.extend(one.into_iter().chain(other)),
+        }
+        let distance = away.norm();
+        if distance > 0.0 && fixed.faces(&away) && moving.faces(&-away) {
+            found.push(ContactPoint {
+                on_moving: moving.corner,
+                normal: away / distance,
+                gap: distance,
+                turns_with: TurnsWith::Line,
+            });
+        }
+    }
+}
+
+/// A convex corner with its two edges.
+struct Wedge {
+    /// Where it is (m).
+    corner: Vector2<f64>,
+    /// The edges.
+    sides: [Side; 2],
+}
+
+/// An edge at a corner.
+struct Side {
+    /// Unit vector from the corner along it.
+    along: Vector2<f64>,
+    /// Its outward normal.
+    normal: Vector2<f64>,
+    /// Its length (m).
+    length: f64,
+}
+
+impl Wedge {
+    fn new(of: &SearchedOutline, i: usize, (rotation, position): &Placed) -> Self {
+        let vertices = of.outline.vertices();
+        let side = |edge: usize, end: usize| {
+            let along = vertices[end] - vertices[i];
+            let length = along.norm();
+            Side {
+                along: rotation * (along / length),
+                normal: rotation * of.outline.normals()[edge],
+                length,
+            }
+        };
+        Self {
+            corner: position + rotation * vertices[i],
+            sides: [side(i, of.next(i)), side(of.before(i), of.before(i))],
+        }
+    }
+
+    /// Whether a direction from the corner leaves both edges behind: the corner is the nearest point to all that
+    /// lies there.
+    fn faces(&self, toward: &Vector2<f64>) -> bool {
+        self.sides.iter().all(|it| it.along.dot(toward) < 0.0)
+    }
+
+    /// The outward normal of the edge that the corner of another wedge meets, and how far (m) it is in front of
+    /// this edge; none if it is nearest to the corner, or beyond the end of an edge. Inside the wedge it is the
+    /// edge whose normal separates the wedges most, cut off at twice a margin (m).
+    fn meets(&self, other: &Self, margin: f64) -> Option<(Vector2<f64>, f64)> {
+        let from = other.corner - self.corner;
+        let in_front = |side: &Side| side.normal.dot(&from);
+        let is_inside = self.sides.iter().all(|it| in_front(it) < 0.0);
+        let meets = |side: &&Side| {
+            let t = side.along.dot(&from);
+            is_inside || (in_front(side) >= 0.0 && t >= 0.0 && t <= side.length)
+        };
+        let separation = |side: &Side| {
+            let deepest = |end: &Side| {
+                let reach = end.length.min(2.0 * margin);
+                (side.normal.dot(&end.along) * reach).min(0.0)
+            };
+            in_front(side) + other.sides.iter().map(deepest).fold(0.0, f64::min)
+        };
+        let met = self.sides.iter().filter(meets);
+        met.max_by_key(|side| OrderedFloat(separation(side)))
+            .map(|side| (side.normal, in_front(side)))
     }
 }
 

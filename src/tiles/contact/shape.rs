@@ -1,6 +1,5 @@
 //! The shape of one tile, as the contact queries use it.
 
-use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
 use super::tree::{Circle, CircleTree};
@@ -64,16 +63,6 @@ impl SearchedOutline {
     pub fn length(&self, edge: usize) -> f64 {
         let (a, b) = self.outline.edge(edge);
         (b - a).norm()
-    }
-
-    /// A corner as a triangle: itself and the ends of its two edges, cut off at `reach` (m).
-    pub fn corner(&self, i: usize, reach: f64) -> [Vector2<f64>; 3] {
-        let p = self.outline.vertices()[i];
-        let toward = |k: usize| {
-            let along = self.outline.vertices()[k] - p;
-            p + along * (reach / along.norm()).min(1.0)
-        };
-        [p, toward(self.next(i)), toward(self.before(i))]
     }
 }
 

@@ -3,11 +3,15 @@
 use std::sync::Arc;
 
 use nalgebra::{Vector2, Vector3};
+use ordered_float::OrderedFloat;
+use parry2d_f64::math::{Pose, Vector};
+use parry2d_f64::query;
+use parry2d_f64::shape::SharedShape;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::contact::{Contact, ContactPoint};
-use tilebind::tile::Pair;
+use tilebind::tile::{Outline, Pair};
 
 use crate::designs;
 
@@ -168,5 +172,118 @@ fn a_motion_that_closes_no_gap_leaves_the_tiles_apart() {
             }
         }
         assert!(tried > 500, "{shape}: {tried}");
+    }
+}
+
+/// A convex tile of 40 mm or so: a ring's sector, a square, or a triangle with a sharp corner.
+fn convex(vertices: &[[f64; 2]]) -> (Contact, SharedShape) {
+    let outline = Outline::new(vertices.iter().map(|it| Vector2::from(*it)).collect()).unwrap();
+    let points = vertices.iter().map(|[x, y]| Vector::new(*x, *y)).collect();
+    let shape = SharedShape::convex_polyline_unmodified(points).unwrap();
+    (Contact::new(&outline, &outline), shape)
+}
+
+const CONVEX: [&[[f64; 2]]; 3] = [
+    &[
+        [0.023, -0.0095],
+        [0.0434, -0.018],
+        [0.0434, 0.018],
+        [0.023, 0.0095],
+    ],
+    &[[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]],
+    &[[0.0, 0.0], [0.04, 0.0], [0.035, 0.015]],
+];
+
+/// A corner of the moving tile beside a corner of the fixed one, with any orientation or with two edges that
+/// are parallel but for a little.
+fn corner_at_corner(contact: &Contact, size: f64, rng: &mut ChaCha8Rng) -> Configuration {
+    let vertices = contact.fixed().vertices();
+    let n = vertices.len();
+    let [k, i] = [0, 1].map(|_| rng.random_range(0..n));
+    let mut random = || rng.random_range(-1.0..1.0);
+    let mut theta = 3.2 * random();
+    if random() > 0.0 {
+        let angle = |edge: usize| {
+            let normal = contact.fixed().normals()[edge];
+            normal.y.atan2(normal.x)
+        };
+        let edge = |at: usize, share: f64| if share > 0.0 { at } else { (at + n - 1) % n };
+        let edges = [edge(k, random()), edge(i, random())];
+        theta = std::f64::consts::PI + angle(edges[0]) - angle(edges[1]) + size * random();
+    }
+    let offset = vertices[k] + Vector2::new(random(), random()) * size;
+    let turned = Configuration::new(0.0, 0.0, theta).rotation() * vertices[i];
+    Configuration::new(offset.x - turned.x, offset.y - turned.y, theta)
+}
+
+fn nearest(contact: &Contact, q: &Configuration, margin: f64) -> Option<ContactPoint> {
+    let points = contact.points(q, margin, &contact.near(q, 1.5 * margin));
+    points.into_iter().min_by_key(|it| OrderedFloat(it.gap))
+}
+
+/// The distance by parry's search (Gilbert, Johnson and Keerthi).
+#[test]
+fn the_least_gap_at_corners_is_the_distance() {
+    let margin = 5e-4;
+    let mut rng = ChaCha8Rng::seed_from_u64(12);
+    for vertices in CONVEX {
+        let (contact, shape) = convex(vertices);
+        let mut apart = 0;
+        for _ in 0..6000 {
+            let size = 10f64.powf(rng.random_range(-6.0..-3.3));
+            let q = corner_at_corner(&contact, size, &mut rng);
+            let pose = Pose::new(Vector::new(q.x, q.y), q.theta);
+            let distance =
+                query::distance(&Pose::identity(), shape.as_ref(), &pose, shape.as_ref()).unwrap();
+            let distance = distance.distance;
+            if !(1e-8..0.9 * margin).contains(&distance) {
+                continue;
+            }
+            apart += 1;
+            let least = nearest(&contact, &q, margin).unwrap();
+            assert!(
+                (least.gap - distance).abs() < 1e-9,
+                "{q:?} {least:?} {distance}"
+            );
+        }
+        assert!(apart > 1000, "{apart}");
+    }
+}
+
+/// The distance of two convex tiles has one gradient everywhere, whose direction turns by no more than the
+/// tile moves over the distance: also past corners.
+#[test]
+fn gap_and_normal_change_steadily_past_corners() {
+    let margin = 5e-4;
+    let mut rng = ChaCha8Rng::seed_from_u64(13);
+    for vertices in CONVEX {
+        let (contact, _) = convex(vertices);
+        let [mut steps, mut changes] = [0; 2];
+        for _ in 0..200 {
+            let size = 10f64.powf(rng.random_range(-5.0..-3.5));
+            let start = corner_at_corner(&contact, size, &mut rng);
+            if contact.clearance(&start) <= 0.0 {
+                continue;
+            }
+            let angle = rng.random_range(-3.2..3.2);
+            let step = Vector2::new(f64::cos(angle), f64::sin(angle)) * (0.02 * size);
+            let path = (0..100).map(|k| start.moved((step * f64::from(k)).push(0.0)));
+            let path = path.take_while(|q| contact.clearance(q) > 0.02 * size);
+            let path: Vec<_> = path.map_while(|q| nearest(&contact, &q, margin)).collect();
+            for pair in path.windows(2) {
+                let [from, to] = [&pair[0], &pair[1]];
+                let turn = (to.normal - from.normal).norm();
+                let least = from.gap.min(to.gap);
+                assert!(turn <= 1.01 * step.norm() / least + 1e-9, "{from:?} {to:?}");
+                // The mean of both rates, with an error of second order in the step.
+                let rate = 0.5 * (from.normal + to.normal).dot(&step);
+                let error = (to.gap - from.gap - rate).abs();
+                let most = step.norm_squared() / least + 1e-12;
+                assert!(error <= most, "{error:e} {most:e} {from:?} {to:?}");
+                steps += 1;
+                changes += usize::from(from.turns_with != to.turns_with);
+            }
+        }
+        assert!(steps > 3000 && changes > 20, "{steps} {changes}");
     }
 }
