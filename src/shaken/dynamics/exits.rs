@@ -1,8 +1,8 @@
 //! Exit times of simulated tiles: how long a shaken tile takes from a start to one of two ends.
 
 use super::docking::stream;
-use super::trajectory::thermal_velocity;
 use super::{Body, Motion, MotionSettings, SettingsError, Simulation};
+use crate::rigid::thermal_velocity;
 use tiles::configuration::Configuration;
 use tiles::parallel;
 use tiles::problem::Problem;

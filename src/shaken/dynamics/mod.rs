@@ -30,7 +30,6 @@ mod settings;
 mod simulation;
 mod trajectory;
 
-pub use crate::rigid::{Body, Fan, Motion, Phase};
+pub use crate::rigid::{Body, Fan, Motion, Phase, normal, thermal_velocity};
 pub use settings::{MotionSettings, SettingsError};
 pub use simulation::{Run, Simulation, Snapshot, Stop};
-pub use trajectory::{normal, thermal_velocity};

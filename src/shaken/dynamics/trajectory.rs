@@ -1,9 +1,6 @@
 //! One trajectory: free flight and contact steps in turn.
 
-use std::f64::consts::TAU;
-
 use nalgebra::Vector3;
-use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::encounter::{BOTH, Encounter, FIXED, MOVING};
@@ -11,7 +8,7 @@ use super::flight;
 use super::force::Forces;
 use super::simulation::{Run, Simulation, Snapshot, Stop};
 use crate::rigid::{Account, Island, Masses, Mover, NearPair, Pose, Rider, State};
-use crate::rigid::{Body, Motion, Phase};
+use crate::rigid::{Motion, Phase, normal};
 
 /// A tile in contact is at rest when no point of it moves faster than this (m/s), which is a
 /// ten-thousandth of the speed at which magnets bring tiles of any size together, ...
@@ -337,15 +334,4 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             self.phase.velocity[i] = self.phase.velocity[i] * decay + spread * normal(rng);
         }
     }
-}
-
-/// A velocity (m/s, m/s, rad/s) of a body in equilibrium at kT (J).
-pub fn thermal_velocity(body: &Body, kt: f64, rng: &mut ChaCha8Rng) -> Vector3<f64> {
-    body.masses().map(|mass| (kt / mass).sqrt() * normal(rng))
-}
-
-/// A normally distributed number of mean 0 and variance 1 (Box and Muller 1958).
-pub fn normal(rng: &mut ChaCha8Rng) -> f64 {
-    let radius = (-2.0 * libm::log(1.0 - rng.random::<f64>())).sqrt();
-    radius * libm::cos(TAU * rng.random::<f64>())
 }

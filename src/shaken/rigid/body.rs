@@ -1,6 +1,10 @@
 //! The moving tile as a rigid body.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Rotation2, Vector2, Vector3};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
 
 use tiles::configuration::{Configuration, wrap_angle};
 use tiles::tile::{Pair, Tile};
@@ -120,4 +124,15 @@ impl Body {
     pub fn lever(&self, theta: f64) -> Vector2<f64> {
         Configuration::new(0.0, 0.0, theta).rotation() * self.centre
     }
+}
+
+/// A velocity (m/s, m/s, rad/s) of a body in equilibrium at kT (J).
+pub fn thermal_velocity(body: &Body, kt: f64, rng: &mut ChaCha8Rng) -> Vector3<f64> {
+    body.masses().map(|mass| (kt / mass).sqrt() * normal(rng))
+}
+
+/// A normally distributed number of mean 0 and variance 1 (Box and Muller 1958).
+pub fn normal(rng: &mut ChaCha8Rng) -> f64 {
+    let radius = (-2.0 * libm::log(1.0 - rng.random::<f64>())).sqrt();
+    radius * libm::cos(TAU * rng.random::<f64>())
 }

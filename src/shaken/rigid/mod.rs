@@ -21,7 +21,7 @@ mod rim;
 mod short;
 
 pub use account::Account;
-pub use body::{Body, Motion, Phase};
+pub use body::{Body, Motion, Phase, normal, thermal_velocity};
 pub use fan::{Fan, Winds, longest_step};
 pub use island::{Island, Laws, Masses, SHORTEST_TRIED};
 pub use margins::{Margins, USUAL_STEP};

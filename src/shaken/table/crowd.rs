@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 
 use super::goal::Goal;
-use crate::dynamics::docking::MatchRule;
+use crate::matching::MatchRule;
 use crate::rigid::{Body, Margins, Rim, World, supports};
 use tiles::configuration::Configuration;
 use tiles::contact::Contact;

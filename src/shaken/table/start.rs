@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::crowd::Crowd;
 use super::neighbours::Neighbours;
-use crate::dynamics::thermal_velocity;
+use crate::rigid::thermal_velocity;
 use crate::rigid::{Motion, Mover, Pose};
 use tiles::configuration::{Configuration, wrap_angle};
 use tiles::tile::outline::Bounds;

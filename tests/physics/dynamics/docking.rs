@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use tilebind::dynamics::MotionSettings;
-use tilebind::dynamics::docking::{DockingError, DockingSettings, MatchRule, dock, trajectory};
+use tilebind::dynamics::docking::{
+    DockingError, DockingSettings, MatchRule, NoMagnets, dock, trajectory,
+};
 use tilebind::landscape::Proportion;
 use tilebind::{Configuration, Design};
 
@@ -121,5 +123,5 @@ fn tiles_without_magnets_on_the_target_are_refused() {
     let pair = Arc::make_mut(&mut design.pair);
     pair.moving.magnets.retain(|m| m.face != pair.target.1);
     let refused = dock(&design.problem(), &few(1), &|| ()).unwrap_err();
-    assert_eq!(refused, DockingError::NoMagnets);
+    assert_eq!(refused, DockingError::NoMagnets(NoMagnets));
 }

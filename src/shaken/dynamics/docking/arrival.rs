@@ -20,8 +20,8 @@ use rand_chacha::ChaCha8Rng;
 
 use super::experiment::{Experiment, minimum_below};
 use super::{DockingError, DockingSettings, stream};
-use crate::dynamics::trajectory::thermal_velocity;
 use crate::dynamics::{Body, Motion};
+use crate::rigid::thermal_velocity;
 use landscape::minimum::Known;
 use tiles::configuration::Configuration;
 use tiles::parallel;

@@ -5,7 +5,8 @@ use std::cmp::Reverse;
 use rand_chacha::ChaCha8Rng;
 
 use super::{
-    Docking, DockingError, DockingRun, DockingSettings, End, MatchRule, Start, Trap, stream,
+    Docking, DockingError, DockingRun, DockingSettings, End, MatchRule, NoMagnets, Start, Trap,
+    stream,
 };
 use crate::dynamics::{Body, Motion, Run, Simulation, Snapshot, Stop};
 use landscape::Proportion;
@@ -45,7 +46,7 @@ impl<'a> Experiment<'a> {
         settings: &'a DockingSettings,
         body: impl Fn(&Pair) -> Body,
     ) -> Result<Self, DockingError> {
-        let pair = problem.pair.as_deref().ok_or(DockingError::NoMagnets)?;
+        let pair = problem.pair.as_deref().ok_or(NoMagnets)?;
         let body = body(pair);
         let simulation = Simulation::new(problem, body, &settings.motion)?;
         let scaled = &simulation.settings;

@@ -3,17 +3,16 @@
 mod arrival;
 mod experiment;
 mod map;
-mod matching;
 mod rate;
 mod release;
 mod results;
 mod starts;
 
+pub use crate::matching::{MatchRule, NoMagnets};
 pub use arrival::{Arrival, Arrivals, Caught, MOST_REPEATS, arrivals};
 use experiment::Experiment;
 pub(super) use experiment::{minimum_below, out_of_contact};
 pub use map::{DockingMap, MapCell};
-pub use matching::MatchRule;
 pub use rate::{OnRate, exponential_statistic, poisson_interval};
 pub use release::{Release, off_rate, releases};
 pub use results::{Docking, DockingError, DockingRun, DockingSettings, End, Trap};

@@ -2,8 +2,8 @@
 
 use super::experiment::Experiment;
 use super::{DockingError, DockingSettings, OnRate, stream};
-use crate::dynamics::trajectory::thermal_velocity;
 use crate::dynamics::{Motion, Snapshot};
+use crate::rigid::thermal_velocity;
 use tiles::configuration::Configuration;
 use tiles::parallel;
 use tiles::problem::Problem;

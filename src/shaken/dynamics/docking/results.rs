@@ -1,5 +1,6 @@
 //! The settings and the results of docking experiments.
 
+use super::NoMagnets;
 use super::starts::{Start, Starts};
 use crate::dynamics::{MotionSettings, Run, SettingsError, Snapshot, Stop};
 use landscape::Proportion;
@@ -44,8 +45,8 @@ pub enum DockingError {
     #[error(transparent)]
     Settings(#[from] SettingsError),
     /// A target face has no magnets to match by.
-    #[error("a match needs magnets on both target faces, but one of them has none")]
-    NoMagnets,
+    #[error(transparent)]
+    NoMagnets(#[from] NoMagnets),
     /// The table has no room for the moving tile.
     #[error(transparent)]
     Room(#[from] NoRoom),

@@ -10,9 +10,9 @@ use rand_chacha::ChaCha8Rng;
 
 use super::{BarrierCheck, Below, CheckSettings};
 use crate::dynamics::docking::{minimum_below, out_of_contact, stream};
-use crate::dynamics::trajectory::normal;
 use crate::dynamics::{Body, Motion, MotionSettings, Simulation, Snapshot, Stop};
 use crate::rigid::USUAL_STEP;
+use crate::rigid::normal;
 use landscape::minimum::{Known, Outcome, descend_among};
 use landscape::{Barrier, Place, State};
 use tiles::configuration::Configuration;

@@ -3,11 +3,15 @@
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
-use super::DockingError;
 use tiles::configuration::Configuration;
 use tiles::problem::{Equal, Problem, Symmetry, of_faces};
 use tiles::tile::congruence::near_face;
 use tiles::tile::{Magnet, Pair, Tile};
+
+/// A target face has no magnets to match by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a match needs magnets on both target faces, but one of them has none")]
+pub struct NoMagnets;
 
 /// A match in the paper's sense: every magnet of the target face is within a threshold of its
 /// partner on the other tile. A single magnet does not determine how tiles lie against each other,
@@ -55,7 +59,7 @@ impl MatchRule {
     ///
     /// # Errors
     /// If one of the target faces has no magnets, and none in its corners.
-    pub fn new(problem: &Problem, threshold: Option<f64>) -> Result<Self, DockingError> {
+    pub fn new(problem: &Problem, threshold: Option<f64>) -> Result<Self, NoMagnets> {
         let maps = problem.bonds().iter().map(|bond| bond.map);
         Self::of(problem, threshold, maps.collect())
     }
@@ -64,8 +68,8 @@ impl MatchRule {
     ///
     /// # Errors
     /// As for [`new`](Self::new).
-    pub fn between(problem: &Problem, tiles: [&Tile; 2]) -> Result<Self, DockingError> {
-        let pair = problem.pair.as_deref().ok_or(DockingError::NoMagnets)?;
+    pub fn between(problem: &Problem, tiles: [&Tile; 2]) -> Result<Self, NoMagnets> {
+        let pair = problem.pair.as_deref().ok_or(NoMagnets)?;
         Self::of(problem, None, of_faces(pair, tiles))
     }
 
@@ -74,7 +78,7 @@ impl MatchRule {
     ///
     /// # Errors
     /// As for [`new`](Self::new).
-    pub fn of_equals(problem: &Problem) -> Result<Self, DockingError> {
+    pub fn of_equals(problem: &Problem) -> Result<Self, NoMagnets> {
         let mut rule = Self::new(problem, None)?;
         let swapped = rule.contacts.iter().map(|it| it.image(&Equal::SWAP));
         let swapped: Vec<_> = swapped.collect();
@@ -82,13 +86,9 @@ impl MatchRule {
         Ok(rule)
     }
 
-    fn of(
-        problem: &Problem,
-        threshold: Option<f64>,
-        maps: Vec<Equal>,
-    ) -> Result<Self, DockingError> {
-        let pair = problem.pair.as_deref().ok_or(DockingError::NoMagnets)?;
-        let (partners, usual) = partners(pair).ok_or(DockingError::NoMagnets)?;
+    fn of(problem: &Problem, threshold: Option<f64>, maps: Vec<Equal>) -> Result<Self, NoMagnets> {
+        let pair = problem.pair.as_deref().ok_or(NoMagnets)?;
+        let (partners, usual) = partners(pair).ok_or(NoMagnets)?;
         let target = Wanted {
             pose: pair.bound,
             partners,
