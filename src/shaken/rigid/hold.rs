@@ -336,7 +336,7 @@ pub fn hold_back(
     }
     let law = [friction, error];
     let mut local: Each<usize> = velocities.iter().map(|_| usize::MAX).collect();
-    if velocities.len() == 1 {
+    if velocities.len() == 1 || (velocities.len() == 2 && rests.is_empty()) {
         let all: Points<usize> = (0..holds.len()).collect();
         let lying: Points<usize> = (0..rests.len()).collect();
         let points = ([&all[..], &lying[..]], &mut local[..]);

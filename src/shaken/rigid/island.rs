@@ -25,7 +25,7 @@ use super::fan::{Winds, longest_step};
 use super::hold::{Hold, hold_back, kinetic};
 use super::margins::Margins;
 use super::motion::{
-    Forces, State, Strength, Unsolved, Way, closes, fastest, put_right, put_right_held,
+    Forces, State, Strength, Unsolved, Way, closes, fastest, put_right, put_right_held, relative,
 };
 use super::mover::{Mover, Rider};
 use super::near::{NearPair, Touch, at_rim};
@@ -123,6 +123,9 @@ impl<W: World> Island<'_, W> {
             .map(|it| self.world.body(it.mover.kind).masses())
             .collect();
         let inverse: Vec<_> = masses.iter().map(|it| it.map(|mass| 1.0 / mass)).collect();
+        if self.move_as_one([&masses, &inverse]) {
+            return;
+        }
         let mut state = self.start(&masses);
         self.is_solved = self.go_on(&mut state, [&masses, &inverse]).is_ok();
         for (rider, velocity) in self.riders.iter_mut().zip(&state.velocities) {
@@ -222,7 +225,7 @@ impl<W: World> Island<'_, W> {
 
     /// All accelerations (m/s^2, rad/s^2), the own forces of the pairs, and the potential energy (J) at a
     /// time (s) since the start of the step of the table.
-    fn forces(&mut self, masses: &[Vector3<f64>], time: f64) -> Forces {
+    pub(super) fn forces(&mut self, masses: &[Vector3<f64>], time: f64) -> Forces {
         let mut all = Each::from_slice(&self.steady);
         let mut strengths = Each::new();
         let mut potential = 0.0;
@@ -277,15 +280,15 @@ impl<W: World> Island<'_, W> {
         fastest(self.world, &self.riders[tile].mover, of)
     }
 
-    /// The same for the second tile of a pair, relative to the first one in its rotating frame.
+    /// The same for the second tile of a pair, relative to the first one.
     fn relative(&self, two: Two, of: &[Vector3<f64>]) -> f64 {
         let tiles = [two.first, two.second];
-        let [first, second] = tiles.map(|k| mover(&self.riders, &self.still, k));
-        let between = (second.place - first.place).xy();
-        let [a, b] = tiles.map(|k| of.get(k).copied().unwrap_or_default());
-        let carried = Vector2::new(-between.y, between.x) * a.z;
-        let reach = self.world.reach(second.kind);
-        (b.xy() - a.xy() - carried).norm() + reach * (b.z - a.z).abs()
+        let movers = tiles.map(|k| mover(&self.riders, &self.still, k));
+        relative(
+            self.world,
+            movers,
+            tiles.map(|k| of.get(k).copied().unwrap_or_default()),
+        )
     }
 
     /// The longest step (s) in which the forces of pairs in relative motion change little.
@@ -341,8 +344,8 @@ impl<W: World> Island<'_, W> {
 
     /// Finds the longest step from a state, of at most a time (s), and the points for it.
     fn look(&mut self, state: &mut State, inverse: &[Vector3<f64>], time: f64) {
-        let most = time.min(self.laws.step);
-        state.longest = self.longest_step(state, inverse).min(most);
+        state.unhurried = self.longest_step(state, inverse).min(self.laws.step);
+        state.longest = state.unhurried.min(time);
         state.holds = self.points(state, state.longest);
     }
 
@@ -406,8 +409,8 @@ impl<W: World> Island<'_, W> {
     /// that closes stops, within the step: by bounces shorter than the shortest, or than rounding.
     pub(super) fn slow(&self, state: &State, hold: &Hold) -> f64 {
         let press = -hold.rate(&state.accelerations);
-        let bounce = 0.5 * press * state.longest / SHORTEST;
-        bounce.max(self.margins.touched / state.longest)
+        let bounce = 0.5 * press * state.unhurried / SHORTEST;
+        bounce.max(self.margins.touched / state.unhurried)
     }
 
     /// The law of contact: friction, and the error of velocities (m/s) for a step (s).
@@ -439,11 +442,18 @@ impl<W: World> Island<'_, W> {
             hold.gap <= touched && hold.rate(&state.velocities) <= *slow
         };
         let mut lasts: Points<bool> = state.holds.iter().zip(&slow).map(is_lasting).collect();
+        let mut forces: Points<[f64; 2]> = state.holds.iter().map(|hold| hold.forces).collect();
         for _ in 0..SEARCHES {
             let mut holds = Vec::new();
-            for (hold, _) in state.holds.iter().zip(&lasts).filter(|it| *it.1) {
+            for ((hold, forces), _) in state
+                .holds
+                .iter()
+                .zip(&forces)
+                .zip(&lasts)
+                .filter(|it| *it.1)
+            {
                 let mut hold = *hold;
-                hold.impulses = hold.forces.map(|force| force * 0.5 * h);
+                hold.impulses = forces.map(|force| force * 0.5 * h);
                 holds.push(hold);
             }
             let mut rests = self.rests(inverse, 0.5 * h);
@@ -451,6 +461,10 @@ impl<W: World> Island<'_, W> {
                 rest.impulse = rub * (0.5 * h);
             }
             let way = self.forecast(state, (&mut holds, &mut rests), inverse, h)?;
+            let solved = forces.iter_mut().zip(&lasts).filter(|it| *it.1);
+            for ((forces, _), hold) in solved.zip(&holds) {
+                *forces = hold.impulses.map(|impulse| impulse / (0.5 * h));
+            }
             // By the velocity in the middle of the step: the step is then as long as the one back from
             // its end, and errors of energy do not add up.
             let share = self.time_to_travel(&way, &state.holds) / h;
@@ -665,6 +679,8 @@ impl<W: World> Island<'_, W> {
         inverse: &[Vector3<f64>],
         h: f64,
     ) -> Result<Vec<Rest>, Unsolved> {
+        // The next step may be longer: it starts with these velocities, and must not take errors for a bounce.
+        let law = self.law(h.max(next.unhurried));
         let mut now = self.rests(inverse, 0.5 * h);
         for (now, first) in now.iter_mut().zip(&rests) {
             now.impulse = first.impulse;
@@ -672,17 +688,12 @@ impl<W: World> Island<'_, W> {
         }
         if now.is_empty() {
             let held = (holds, &mut now[..]);
-            let is_found = hold_back(inverse, &mut next.velocities, held, self.law(h));
+            let is_found = hold_back(inverse, &mut next.velocities, held, law);
             return is_found.then_some(now).ok_or(Unsolved);
         }
         let free = next.velocities.clone();
         loop {
-            if !hold_back(
-                inverse,
-                &mut next.velocities,
-                (holds, &mut now),
-                self.law(h),
-            ) {
+            if !hold_back(inverse, &mut next.velocities, (holds, &mut now), law) {
                 return Err(Unsolved);
             }
             let is_turned = |it: &Rest| {
@@ -783,8 +794,9 @@ impl<W: World> Island<'_, W> {
     /// Keeps the forces at points of contact, by their impulses in half a step (s), as a guess for the
     /// next step.
     fn remember(&mut self, holds: &[Hold], h: f64) {
-        for (_, near) in &mut self.pairs {
-            near.held.clear();
+        for (two, near) in &mut self.pairs {
+            let q = self.poses[two.first].to(&self.poses[two.second].at);
+            near.hold_anew(q);
         }
         for hold in holds {
             if let Some(pair) = hold.pair {
@@ -793,6 +805,7 @@ impl<W: World> Island<'_, W> {
                 near.held.push(Touch {
                     at: pose.inverse_transform(hold.point),
                     normal: pose.rotation.inverse() * hold.axis,
+                    turns_with: hold.turns_with,
                     forces: hold.impulses.map(|impulse| impulse / (0.5 * h)),
                 });
             }

@@ -22,7 +22,7 @@ impl<W: World> Island<'_, W> {
         state: &mut State,
         [masses, inverse]: Masses,
     ) -> Result<f64, Unsolved> {
-        let law = self.law(state.longest);
+        let law = self.law(state.unhurried);
         let touching = || {
             state
                 .holds

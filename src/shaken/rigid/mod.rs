@@ -19,16 +19,17 @@ mod pair;
 mod rest;
 mod rim;
 mod short;
+mod together;
 
 pub use account::Account;
 pub use body::{Body, Motion, Phase, normal, thermal_velocity};
 pub use fan::{Fan, Winds, longest_step};
 pub use island::{Island, Laws, Masses, SHORTEST_TRIED};
 pub use margins::{Margins, USUAL_STEP};
-pub use motion::{State, fastest};
+pub use motion::{State, fastest, relative};
 pub use mover::{Mover, Rider};
 pub use near::{NearPair, rim_room};
-pub use pair::{Pose, Two, pull};
+pub use pair::{Pose, Two, Within, on_the_table};
 pub use rest::{GRAVITY, supports};
 pub use rim::Rim;
 

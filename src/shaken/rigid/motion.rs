@@ -38,6 +38,8 @@ pub struct State {
     pub halvings: i32,
     /// The longest step (s) from here.
     pub longest: f64,
+    /// The same, if the step of the table did not end: what is slow must not depend on this.
+    pub unhurried: f64,
     /// The points that touch or may come into contact within it.
     pub holds: Vec<Hold>,
     /// The last friction (N) of the points at which tiles lie on the table.
@@ -64,6 +66,7 @@ impl State {
             debt: 0.0,
             halvings: 0,
             longest: 0.0,
+            unhurried: 0.0,
             holds: Vec::new(),
             rubs: Vec::new(),
         }
@@ -94,6 +97,14 @@ pub struct Way {
 /// An upper bound of the speed or acceleration of a tile's fastest point.
 pub fn fastest(world: &impl World, mover: &Mover, of: &Vector3<f64>) -> f64 {
     of.xy().norm() + world.reach(mover.kind) * of.z.abs()
+}
+
+/// The same of the second of two tiles, relative to the first one in its rotating frame.
+pub fn relative(world: &impl World, [first, second]: [&Mover; 2], of: [Vector3<f64>; 2]) -> f64 {
+    let between = (second.place - first.place).xy();
+    let [a, b] = of;
+    let carried = Vector2::new(-between.y, between.x) * a.z;
+    (b.xy() - a.xy() - carried).norm() + world.reach(second.kind) * (b.z - a.z).abs()
 }
 
 /// Corrects the velocities along the forces of the pairs, by less than a step (s) changed them, so
@@ -144,8 +155,11 @@ pub fn put_right_held(
     energy: f64,
 ) {
     let wanted = energy + state.debt - kinetic(masses, &state.velocities);
-    let common = match places {
-        Some(places) => common_motion(masses, places, &state.velocities),
+    let common: Each<Vector3<f64>> = match places {
+        Some(places) => {
+            let common = Common::of(masses, places, &state.velocities);
+            places.iter().map(|place| common.at(place)).collect()
+        }
         None => masses.iter().map(|_| Vector3::zeros()).collect(),
     };
     let each = state.velocities.iter().zip(&common);
@@ -161,34 +175,53 @@ pub fn put_right_held(
     state.debt = energy + state.debt - kinetic(masses, &state.velocities);
 }
 
-/// The velocities that tiles would have if they were one rigid body with their momentum and angular
-/// momentum.
-fn common_motion(
-    masses: &[Vector3<f64>],
-    places: &[Vector3<f64>],
-    velocities: &[Vector3<f64>],
-) -> Each<Vector3<f64>> {
-    let whole: f64 = masses.iter().map(|it| it.x).sum();
-    let mean = |of: &[Vector3<f64>]| {
-        let each = masses.iter().zip(of);
-        each.map(|(mass, of)| of.xy() * mass.x)
-            .sum::<Vector2<f64>>()
-            / whole
-    };
-    let (centre, drift) = (mean(places), mean(velocities));
-    let [mut inertia, mut momentum] = [0.0; 2];
-    for ((mass, place), v) in masses.iter().zip(places).zip(velocities) {
-        let arm = place.xy() - centre;
-        inertia += mass.x * arm.norm_squared() + mass.z;
-        momentum += mass.x * arm.perp(&v.xy()) + mass.z * v.z;
+/// The motion that tiles would have if they were one rigid body with their momentum and angular momentum.
+pub struct Common {
+    /// The centre of mass (m).
+    pub centre: Vector2<f64>,
+    /// Its velocity and the angular velocity (m/s, m/s, rad/s).
+    pub velocity: Vector3<f64>,
+}
+
+impl Common {
+    /// Of velocities, or of accelerations.
+    pub fn of(
+        masses: &[Vector3<f64>],
+        places: &[Vector3<f64>],
+        velocities: &[Vector3<f64>],
+    ) -> Self {
+        let whole: f64 = masses.iter().map(|it| it.x).sum();
+        let mean = |of: &[Vector3<f64>]| {
+            let each = masses.iter().zip(of);
+            each.map(|(mass, of)| of.xy() * mass.x)
+                .sum::<Vector2<f64>>()
+                / whole
+        };
+        let (centre, drift) = (mean(places), mean(velocities));
+        let [mut inertia, mut momentum] = [0.0; 2];
+        for ((mass, place), v) in masses.iter().zip(places).zip(velocities) {
+            let arm = place.xy() - centre;
+            inertia += mass.x * arm.norm_squared() + mass.z;
+            momentum += mass.x * arm.perp(&v.xy()) + mass.z * v.z;
+        }
+        Self {
+            centre,
+            velocity: drift.push(momentum / inertia),
+        }
     }
-    let turn = momentum / inertia;
-    let of = |place: &Vector3<f64>| {
-        let arm = place.xy() - centre;
-        let v = drift + Vector2::new(-arm.y, arm.x) * turn;
-        Vector3::new(v.x, v.y, turn)
-    };
-    places.iter().map(of).collect()
+
+    /// The velocity of a tile at a place.
+    pub fn at(&self, place: &Vector3<f64>) -> Vector3<f64> {
+        let arm = place.xy() - self.centre;
+        let v = self.velocity.xy() + Vector2::new(-arm.y, arm.x) * self.velocity.z;
+        v.push(self.velocity.z)
+    }
+
+    /// The largest distance (m) of a tile from the centre of mass.
+    pub fn reach(&self, places: &[Vector3<f64>]) -> f64 {
+        let arms = places.iter().map(|it| (it.xy() - self.centre).norm());
+        arms.fold(0.0, f64::max)
+    }
 }
 
 /// The time at which a gap (m) that changes as `gap + u t + a t^2 / 2` closes, and its velocity

@@ -7,7 +7,7 @@ use super::margins::Margins;
 use super::mover::Mover;
 use super::pair::{Pose, Pull, Two, Within, on_the_table};
 use tiles::configuration::Configuration;
-use tiles::contact::{Contact, ContactPoint, NearPairs};
+use tiles::contact::{Contact, ContactPoint, NearPairs, TurnsWith};
 use tiles::tile::outline::cross;
 
 /// The motion, in skins, over which a pull counts as the same. A force changes over a magnet's half side l: its
@@ -32,6 +32,8 @@ pub struct NearPair {
     pulled: Option<(Configuration, Within)>,
     /// The last contact points.
     pub held: Vec<Touch>,
+    /// The pose of the second tile in the first one's frame that they are of.
+    held_at: Configuration,
     /// The last points, with the pose and the margin (m) that they are of.
     found: Option<(Configuration, f64, Vec<ContactPoint>)>,
 }
@@ -43,6 +45,8 @@ pub struct Touch {
     pub at: Vector2<f64>,
     /// The normal, from the first tile to the second.
     pub normal: Vector2<f64>,
+    /// What the normal turns with.
+    pub turns_with: TurnsWith,
     /// The forces (N) along normal and tangent.
     pub forces: [f64; 2],
 }
@@ -59,6 +63,7 @@ impl NearPair {
             room_at: Configuration::new(0.0, 0.0, 0.0),
             pulled: None,
             held: Vec::new(),
+            held_at: Configuration::new(0.0, 0.0, 0.0),
             found: None,
         }
     }
@@ -85,6 +90,22 @@ impl NearPair {
         let found = world.pull(kinds, &q);
         self.pulled = Some((q, found));
         on_the_table(found, movers, poses)
+    }
+
+    /// Forgets the last points of contact: those that follow are of this pose.
+    pub fn hold_anew(&mut self, q: Configuration) {
+        self.held.clear();
+        self.held_at = q;
+    }
+
+    /// The largest way (m) of a point of the second tile since the last points of contact.
+    pub fn moved_since_held(
+        &self,
+        world: &impl World,
+        q: &Configuration,
+        kinds: [usize; 2],
+    ) -> f64 {
+        moved(world.contact(kinds), [&self.held_at, q])
     }
 
     /// The last forces (N) at a point, in the first tile's frame.

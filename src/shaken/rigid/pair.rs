@@ -79,14 +79,7 @@ pub type Within = (f64, Vector2<f64>, f64);
 /// N m).
 pub type Pull = (f64, [Vector3<f64>; 2]);
 
-/// The pull of two tiles on each other, in the order of a [`Two`].
-pub fn pull(world: &impl World, movers: [&Mover; 2], poses: [&Pose; 2]) -> Pull {
-    let q = poses[0].to(&poses[1].at);
-    let own = world.pull(movers.map(|it| it.kind), &q);
-    on_the_table(own, movers, poses)
-}
-
-/// The same on the table, from that in the frame of the first.
+/// The pull on the table, in the order of a [`Two`], from that in the frame of the first.
 pub fn on_the_table(
     (energy, force, torque): Within,
     [first, second]: [&Mover; 2],

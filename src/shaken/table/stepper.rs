@@ -12,8 +12,9 @@ use super::neighbours::Neighbours;
 use super::settings::TableSettings;
 use crate::rigid::{
     Account, Island, Laws, Margins, Mover, NearPair, Pose, Rider, SHORTEST_TRIED, Two, Winds,
-    fastest, longest_step, pull, rim_room,
+    Within, World, fastest, longest_step, on_the_table, relative, rim_room,
 };
+use tiles::configuration::Configuration;
 use tiles::parallel;
 
 /// Islands per task of a thread.
@@ -30,11 +31,12 @@ const SHARE_OF_NEAR: f64 = 0.25;
 const MOST_OF_NEAR: f64 = 2.0;
 /// Pairs are tied if their tiles may come this near in a step, as a share of the same distance.
 const SHARE_TIED: f64 = 0.1;
-/// The pull of two tiles that are not near each other is computed anew after this many steps ...
+/// The pull of two tiles that do not touch is computed anew after this many steps ...
 const MOST_STEPS: f64 = 16.0;
-/// ... or once they have moved by this share of the distance of their circles, over which it changes ...
+/// ... or once they have moved by this share of the distance, of their circles or if they are near of their
+/// outlines, over which it changes ...
 const SHARE_OF_ROOM: f64 = 0.02;
-/// ... and which counts as this share of the circles' radii at least.
+/// ... and which counts as this share of the circles' radii at least, or as half a magnet's side.
 const LEAST_ROOM: f64 = 0.1;
 
 /// Why a run cannot go on.
@@ -118,9 +120,10 @@ struct Apart {
 #[derive(Clone, Copy)]
 struct Lasting {
     two: Two,
-    pulls: [Vector3<f64>; 2],
-    /// The places of both at the first of the steps.
-    at: [Vector3<f64>; 2],
+    /// In the frame of the first tile, in which it also turns with the two.
+    within: Within,
+    /// The pose of the second in this frame at the first of the steps.
+    at: Configuration,
     /// The number of steps that it is for, with this one.
     steps: usize,
 }
@@ -349,7 +352,11 @@ impl<'a> Stepper<'a> {
             }
             if !is_tied && (is_near || distance <= couple.cutoff.to + near) {
                 let near = is_near.then(|| self.near.len() - 1);
-                let room = (distance - couple.radii()).max(LEAST_ROOM * couple.radii());
+                // Of near tiles the pull changes over the distance of their outlines.
+                let room = match is_near {
+                    true => room.max(self.margins.feature),
+                    false => (distance - couple.radii()).max(LEAST_ROOM * couple.radii()),
+                };
                 let room = SHARE_OF_ROOM * room;
                 apart.push(Apart { two, near, room });
             }
@@ -365,6 +372,7 @@ impl<'a> Stepper<'a> {
             apart,
             halfway,
             movers,
+            poses,
             lasting,
             lasted,
             ..
@@ -373,18 +381,16 @@ impl<'a> Stepper<'a> {
         lasting.clear();
         let mut lasted = lasted.iter().peekable();
         let mut new = Vec::new();
-        for Apart { two, near, room } in apart.iter() {
+        for Apart { two, room, .. } in apart.iter() {
             let known = next_of(two, &mut lasted, |it| it.two);
             let [first, second] = [two.first, two.second].map(|k| &movers[k]);
-            let at = [first.place, second.place];
-            // A turn of either tile moves the other one's magnets in its frame.
-            let moved = |from: &[Vector3<f64>; 2]| {
-                let [a, b] = [0, 1].map(|k| at[k] - from[k]);
-                let [first, second] = [first, second].map(|it| crowd.kinds[it.kind].reach);
-                (b - a).xy().norm() + first * a.z.abs() + second * b.z.abs()
+            let kinds = [first.kind, second.kind];
+            let at = poses[two.first].to(&poses[two.second].at);
+            let moved = |from: &Configuration| {
+                let step = from.step_to(&at);
+                step.xy().norm() + crowd.contact(kinds).moving().circumradius() * step.z.abs()
             };
-            // Those that are near may have to be tied.
-            let known = known.filter(|it| it.steps > 1 && near.is_none() && moved(&it.at) <= *room);
+            let known = known.filter(|it| it.steps > 1 && moved(&it.at) <= *room);
             if let Some(known) = known {
                 lasting.push(Lasting {
                     steps: known.steps - 1,
@@ -392,19 +398,22 @@ impl<'a> Stepper<'a> {
                 });
                 continue;
             }
-            let speeds = [first, second].map(|it| fastest(crowd, it, &it.velocity));
-            let steps = room / ((speeds[0] + speeds[1]) * h).max(f64::MIN_POSITIVE);
-            let most = if near.is_some() { 1.0 } else { MOST_STEPS };
+            let speed = relative(
+                crowd,
+                [first, second],
+                [first, second].map(|it| it.velocity),
+            );
+            let steps = room / (speed * h).max(f64::MIN_POSITIVE);
             new.push(lasting.len());
             lasting.push(Lasting {
                 two: *two,
-                pulls: Default::default(),
+                within: Default::default(),
                 at,
-                steps: steps.clamp(1.0, most) as usize,
+                steps: steps.clamp(1.0, MOST_STEPS) as usize,
             });
         }
         let parts: Vec<&[usize]> = new.chunks(APART_TOGETHER).collect();
-        let pulls = parallel::flat_map(&parts, |part| {
+        let found = parallel::flat_map(&parts, |part| {
             let pull_of = |k: &usize| {
                 let Lasting { two, steps, .. } = &lasting[*k];
                 let middle = |tile: usize| match steps {
@@ -412,14 +421,16 @@ impl<'a> Stepper<'a> {
                     _ => ahead(crowd, &movers[tile], 0.5 * *steps as f64 * h),
                 };
                 let [(first, a), (second, b)] = [two.first, two.second].map(middle);
-                pull(crowd, [&first, &second], [&a, &b]).1
+                crowd.pull([first.kind, second.kind], &a.to(&b.at))
             };
             part.iter().map(pull_of).collect::<Vec<_>>()
         });
-        for (k, pulls) in new.into_iter().zip(pulls) {
-            lasting[k].pulls = pulls;
+        for (k, within) in new.into_iter().zip(found) {
+            lasting[k].within = within;
         }
-        for (Apart { two, near, .. }, Lasting { pulls, .. }) in apart.iter().zip(&*lasting) {
+        for (Apart { two, near, .. }, Lasting { within, .. }) in apart.iter().zip(&*lasting) {
+            let [(first, a), (second, b)] = [two.first, two.second].map(|k| &halfway[k]);
+            let pulls = on_the_table(*within, [first, second], [a, b]).1;
             let tiles = [two.first, two.second];
             let own = [0, 1].map(|side| pulls[side].component_div(&self.masses[tiles[side]]));
             if let Some(near) = near.map(|k| &mut self.near[k]) {

@@ -3,6 +3,7 @@
 mod contact;
 mod discs;
 mod drives;
+mod together;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -355,7 +356,7 @@ fn share_bound(crowd: &Crowd, kt: f64) -> [f64; 2] {
         let bound = found.samples.iter().filter(is_bound).count();
         bound as f64 / found.samples.len() as f64
     };
-    mean(&(0..12).map(share).collect::<Vec<_>>())
+    mean(&(0..24).map(share).collect::<Vec<_>>())
 }
 
 /// How much likelier than far from the rim and from each other tiles are bound where there are both:
