@@ -50,7 +50,8 @@
 //! 10. `src/report/analysis.rs` - the report.
 //!
 //! `src/report/document` describes how a result becomes text, JSON, tables, pictures and a page;
-//! `src/jobs/request` how options of the command line become keyword arguments in Python.
+//! `src/jobs/request` how options of the command line become keyword arguments in Python; an option is
+//! declared in its request alone, and `tests/program/keywords.rs` writes what Python says of it.
 //!
 //! The terms are the same everywhere: the intended contact of the tiles is the *bond*, any other
 //! stable contact is a *trap*, and tiles far apart are *free*. [`potential::interaction`] describes
