@@ -9,8 +9,9 @@ use super::given::{Barrier, Given, Place, Point, Pose, Report, Share, Tiles};
 use super::interval::Interval;
 use physics::parallel;
 
-/// Overlap (m) that pathways may have: they are proved free to half a micrometre.
-const OVERLAP: f64 = 5e-7;
+/// Overlap that pathways may have, as a share of the smaller tile's circumradius: they are proved free to
+/// half a micrometre of the paper's tile.
+const OVERLAP: f64 = 1.65e-6;
 /// Largest number of parts of a segment, and of all of a pathway beside one each: what takes more is
 /// undecided.
 const MOST_PARTS: [usize; 2] = [400, 4000];
@@ -25,13 +26,16 @@ struct Allowed {
     upper: f64,
     /// Places (m, and rad).
     place: f64,
+    /// Overlaps (m).
+    overlap: f64,
 }
 
 impl Allowed {
     fn of(report: &Report, tiles: &Tiles, model: Option<Model>) -> Self {
         let states = report.states.iter().map(|it| it.energy.abs());
         let depth = states.fold(report.bound.energy.abs(), f64::max);
-        let size = radius(&tiles.fixed.outline_m) + radius(&tiles.moving.outline_m);
+        let radii = [&tiles.fixed, &tiles.moving].map(|tile| radius(&tile.outline_m));
+        let size = radii[0] + radii[1];
         // Far groups of very many dipoles are replaced by fewer, with an error of their own.
         let many = tiles.fixed.magnets.len() * tiles.moving.magnets.len() >= 16_384;
         let share = match model {
@@ -46,6 +50,7 @@ impl Allowed {
             // Points that are left out of files lie within 1e-8 of the pathway's extent.
             upper: energy.max(1e-7 * depth),
             place: 1e-6 * size,
+            overlap: OVERLAP * radii[0].min(radii[1]),
         }
     }
 }
@@ -252,7 +257,7 @@ impl Folder<'_> {
 
     fn free(&self, what: &str, pose: Pose, book: &mut Book) {
         let clearance = self.clearance(pose);
-        let holds = clearance >= -OVERLAP && clearance.is_finite();
+        let holds = clearance >= -self.allowed.overlap && clearance.is_finite();
         book.note(Subject::Clearances, holds, || {
             format!("{what}: the tiles overlap by {:e} m", -clearance)
         });
@@ -328,8 +333,9 @@ impl Folder<'_> {
             let own = self.clearance(point.pose());
             let least = own.min(point.clearance);
             let off = (own - point.clearance).abs();
-            let holds = least >= -OVERLAP && off <= OVERLAP.max(1e-9 * own.abs());
-            let holds = holds && own.is_finite() && (own < OVERLAP || off <= 1e-8 + 1e-9 * own);
+            let overlap = self.allowed.overlap;
+            let holds = least >= -overlap && off <= overlap.max(1e-9 * own.abs());
+            let holds = holds && own.is_finite() && (own < overlap || off <= 1e-8 + 1e-9 * own);
             book.note(Subject::Clearances, holds, || {
                 format!(
                     "{}: clearance_m {:e} is {own:e} here",
@@ -343,7 +349,7 @@ impl Folder<'_> {
             let half = Motion::new(pair[0].pose(), pair[1].pose()).at(0.5);
             let clearance = self.clearance(half);
             // Points of the file are rounded, and those left out lie within 1e-8 of the extent.
-            let overlap = OVERLAP + 0.02 * self.allowed.place;
+            let overlap = self.allowed.overlap + 0.02 * self.allowed.place;
             book.note(Subject::Clearances, clearance >= -overlap, || {
                 format!(
                     "{name}, after s = {}: the tiles overlap by {:e} m",
