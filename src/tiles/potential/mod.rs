@@ -42,6 +42,7 @@ pub mod bodies;
 pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
+pub(crate) mod far;
 mod flux_density;
 mod function;
 pub(crate) mod groups;

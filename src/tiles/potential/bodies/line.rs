@@ -40,27 +40,78 @@ const LOST: f64 = 1e-13;
 /// The smallest and the largest number of equal steps; above the latter, panels take fewer nodes.
 const STEPS: [f64; 2] = [4.0, 36.0];
 
-/// The integral of a disc and another face, with the derivatives of the disc's motion or the other's.
-pub fn integral(disc: &Face, radius: f64, other: &Face, disc_moves: bool) -> Integral {
+/// A place of the two faces, of a sum over several.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed {
+    /// Their centres (m), the one that stands still first.
+    pub centres: [Vector3<f64>; 2],
+    /// The share of the sum.
+    pub share: f64,
+    /// The second face's centre from the point about which it turns (m).
+    pub offset: Vector2<f64>,
+}
+
+/// The sum of the integrals of a disc and another face at several places, with the derivatives of the disc's
+/// motion or the other's.
+pub fn integral(
+    disc: &Face,
+    radius: f64,
+    other: &Face,
+    disc_moves: bool,
+    all: &[Placed],
+) -> Integral {
+    let mut nodes = Vec::with_capacity(USUAL);
+    for &Placed {
+        centres: [first, second],
+        share,
+        offset,
+    } in all
+    {
+        let [own, others] = match disc_moves {
+            true => [second, first],
+            false => [first, second],
+        };
+        let at = |face: &Face, centre| Face { centre, ..*face };
+        let from = own - others;
+        angles(&at(disc, own), radius, &at(other, others), |phi, weight| {
+            nodes.push(Node {
+                phi,
+                weight: share * weight,
+                from: from.into(),
+                lever: if disc_moves { offset } else { -offset }.into(),
+            });
+        });
+    }
     Level::best().run(Line {
         axis: disc.frame[2],
-        from: disc.centre - other.centre,
         radius,
         other,
         disc_moves,
-        angles: &angles(disc, radius, other),
+        nodes: &nodes,
     })
 }
+
+/// An angle phi (rad) and its weight, with its faces' places (m).
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    phi: f64,
+    weight: f64,
+    /// The disc's centre from the other one's.
+    from: [f64; 3],
+    /// The second face's centre from the point about which it turns; its opposite if the disc is the first.
+    lever: [f64; 2],
+}
+
+/// As many nodes as faces that do not nearly touch need.
+const USUAL: usize = 40;
 
 /// A disc's axis and the other face.
 struct Line<'a> {
     axis: Vector3<f64>,
-    /// The disc's centre from the other one's (m).
-    from: Vector3<f64>,
     radius: f64,
     other: &'a Face,
     disc_moves: bool,
-    angles: &'a [(f64, f64)],
+    nodes: &'a [Node],
 }
 
 impl Task for Line<'_> {
@@ -68,30 +119,38 @@ impl Task for Line<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Integral {
-        let (from, axis) = (self.from, self.axis);
+        let axis = self.axis;
         let zero = l.splat(0.0);
         let [mut value, mut x, mut y, mut slope] = [zero; 4];
-        for angles in self.angles.chunks(WIDTH) {
+        for nodes in self.nodes.chunks(WIDTH) {
             // What is left over has no weight.
-            let (mut phi, mut weight) = ([1.0; WIDTH], [0.0; WIDTH]);
-            for (k, angle) in angles.iter().enumerate() {
-                (phi[k], weight[k]) = *angle;
+            let mut columns = [[0.0; WIDTH]; 7];
+            for lane in 0..WIDTH {
+                let node = nodes[lane.min(nodes.len() - 1)];
+                let weight = if lane < nodes.len() { node.weight } else { 0.0 };
+                let ([x, y, z], [right, up]) = (node.from, node.lever);
+                let all = [node.phi, weight, x, y, z, right, up];
+                for (column, value) in columns.iter_mut().zip(all) {
+                    column[lane] = value;
+                }
             }
+            let [phi, weight, from_x, from_y, from_z, right, up] = columns;
+            let (right, up) = (l.load(&right), l.load(&up));
             let (sin, cos) = l.sin_cos(l.load(&phi));
             let t = l.mul(cos, l.splat(self.radius));
             let half = l.mul(sin, l.splat(self.radius));
             let weight = l.mul(l.mul(half, half), l.mul(l.load(&weight), l.splat(2.0)));
             let place = [
                 Z {
-                    re: l.splat(from.x),
+                    re: l.load(&from_x),
                     im: l.mul(t, l.splat(axis.x)),
                 },
                 Z {
-                    re: l.splat(from.y),
+                    re: l.load(&from_y),
                     im: l.mul(t, l.splat(axis.y)),
                 },
                 Z {
-                    re: l.splat(from.z),
+                    re: l.load(&from_z),
                     im: l.mul(t, l.splat(axis.z)),
                 },
             ];
@@ -108,7 +167,8 @@ impl Task for Line<'_> {
                 let turned = l.z_sub(l.z_mul(gx, place[1]), l.z_mul(gy, place[0]));
                 turned.re
             };
-            slope = l.mul_add(weight, turned, slope);
+            let lever = l.neg_mul_add(up, gx.re, l.mul(right, gy.re));
+            slope = l.mul_add(weight, l.add(turned, lever), slope);
         }
         let sign = if self.disc_moves { 1.0 } else { -1.0 };
         Integral {
@@ -119,9 +179,9 @@ impl Task for Line<'_> {
     }
 }
 
-/// Angles phi (rad) in [0, pi / 2] and their weights: the value at `pi - phi` is the complex
-/// conjugate.
-fn angles(disc: &Face, radius: f64, other: &Face) -> Vec<(f64, f64)> {
+/// Calls `each` with angles phi (rad) in [0, pi / 2] and their weights: the value at `pi - phi` is the
+/// complex conjugate.
+fn angles(disc: &Face, radius: f64, other: &Face, mut each: impl FnMut(f64, f64)) {
     let normal = disc.frame[2];
     let corners = other.corners(disc.centre);
     let singular: ArrayVec<Complex<f64>, 12> = corners
@@ -130,36 +190,43 @@ fn angles(disc: &Face, radius: f64, other: &Face) -> Vec<(f64, f64)> {
             let way = point - disc.centre;
             let height = way.dot(&normal);
             let aside = (way - normal * height).norm();
-            arccosine(Complex::new(aside, height.abs()) / radius)
+            Complex::new(aside, height.abs()) / radius
         })
         .collect();
-    // ln rho is the imaginary part of the angle of the singular place.
-    let ln_rho = singular
-        .iter()
-        .map(|place| place.im)
-        .fold(f64::INFINITY, f64::min);
+    let nearest = singular.iter().map(|place| half_axis(*place));
+    let cosh = nearest.fold(f64::INFINITY, f64::min);
+    let ln_rho = libm::log(cosh + half_axis_across(cosh));
     let steps = (-libm::log(LOST) / (2.0 * ln_rho)).ceil().max(STEPS[0]);
-    let mut found = Vec::new();
     if steps <= STEPS[1] {
         // Equal steps from 0 to pi; the one in the middle is its own image.
         let step = PI / steps;
         for k in 1..=steps as usize / 2 {
             let own = 2 * k == steps as usize;
-            found.push((k as f64 * step, if own { step } else { 2.0 * step }));
+            each(k as f64 * step, if own { step } else { 2.0 * step });
         }
     } else {
+        let singular: ArrayVec<Complex<f64>, 12> = singular.into_iter().map(arccosine).collect();
         panels([0.0, PI / 2.0], &singular, 1e-5, &mut |phi, weight| {
-            found.push((phi, 2.0 * weight))
+            each(phi, 2.0 * weight);
         });
     }
-    found
+}
+
+/// The longer half axis of the ellipse about [-1, 1] through a place.
+fn half_axis(z: Complex<f64>) -> f64 {
+    let [near, far] = [z - 1.0, z + 1.0].map(|d| d.norm_sqr().sqrt());
+    ((near + far) / 2.0).max(1.0)
+}
+
+/// The shorter one, given the longer one.
+fn half_axis_across(cosh: f64) -> f64 {
+    ((cosh - 1.0) * (cosh + 1.0)).sqrt()
 }
 
 /// The angle whose cosine a place in the first quadrant is, with its imaginary part positive:
 /// `cos(a + i b) = cos a cosh b - i sin a sinh b`.
 fn arccosine(z: Complex<f64>) -> Complex<f64> {
-    let [near, far] = [z - 1.0, z + 1.0].map(|d| d.norm_sqr().sqrt());
-    let cosh = ((near + far) / 2.0).max(1.0);
-    let sinh = ((cosh - 1.0) * (cosh + 1.0)).sqrt();
+    let cosh = half_axis(z);
+    let sinh = half_axis_across(cosh);
     Complex::new(libm::acos((z.re / cosh).min(1.0)), libm::log(cosh + sinh))
 }

@@ -23,9 +23,8 @@
 //! surface may overlap others; no magnets can be there, and the energies of discs are not those of the
 //! overlapping faces.
 //!
-//! Beyond about three times the magnets' size the multipole series is used (`series`), with a bound
-//! of 1e-9 of `mu0 m1 m2 / (4 pi r^3)` for the omitted terms. For upright point dipoles it is the
-//! first term of this series, at every distance.
+//! Beyond about three times the magnets' size the multipole series is used (`series`, [`super::far`]), with
+//! a bound of 1e-9 of each pair's `mu0 m1 m2 / (4 pi r^3)` for the omitted terms. For upright point dipoles it is the first term of this series, at every distance.
 //!
 //! Bounds of derivatives are in `limits`; for those over whole cells see
 //! [`bounds`](super::bounds), which has the pairs one by one from `single`, and those of upright discs and
@@ -53,7 +52,10 @@ use std::sync::Arc;
 
 use nalgebra::{Vector2, Vector3};
 
+use super::far::FarForm;
+use super::far::group::Group;
 use super::lever::Lever;
+use super::simd::Level;
 use super::{MagnetModel, Potential, finite, motion};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
@@ -61,9 +63,8 @@ use crate::tile::magnet::{Form, Shape};
 use crate::units::MU0_OVER_4PI;
 use limits::Limits;
 use nearby::Nearby;
-use series::Series;
 pub(in crate::potential) use single::Single;
-use sum::Members;
+use sum::Sum;
 
 /// The fraction of a pair's `mu0 m1 m2 / (4 pi r^3)` at which the series replaces the faces, and at
 /// which its terms are dropped one by one.
@@ -134,8 +135,8 @@ impl Body {
 /// The interaction energy of two sets of magnets of any form, one in each tile.
 #[derive(Clone, Debug)]
 pub struct BodyPotential {
-    fixed: Vec<Group>,
-    moving: Vec<Group>,
+    fixed: Magnets,
+    moving: Magnets,
     /// For each group of the fixed tile and each of the moving one; `None` if one lies and the
     /// other stands.
     pairs: Vec<Vec<Option<Pairs>>>,
@@ -143,20 +144,25 @@ pub struct BodyPotential {
     feature: f64,
 }
 
+/// The magnets of a tile, and groups of them.
+#[derive(Clone, Debug)]
+struct Magnets {
+    bodies: Vec<Body>,
+    groups: Vec<Alike>,
+}
+
 /// Magnets that differ only in place and moment, and by half a turn.
 #[derive(Clone, Debug)]
-struct Group {
+struct Alike {
     /// With the moment 1 A m^2, at the origin.
     like: Body,
-    members: Members,
+    members: Group,
 }
 
 /// Data shared by the pairs of two groups.
 #[derive(Clone, Debug)]
 struct Pairs {
-    series: Series,
-    /// The squared distances (m^2) from which on 1, 2, ... terms suffice.
-    squares: Vec<f64>,
+    far: FarForm,
     /// For moments of 1 A m^2; `None` for point dipoles.
     limits: Option<Limits>,
     /// The energy of near pairs, if it is interpolated.
@@ -166,32 +172,44 @@ struct Pairs {
 /// Directions that differ by less than this (rad) count as equal.
 const SAME_DIRECTION: f64 = 1e-12;
 
-/// Magnets by size and axis, up to its sign: each looks the same after half a turn, but for the pole
-/// of one that lies.
-fn groups(magnets: &[Magnet]) -> Vec<Group> {
-    let mut groups: Vec<Group> = Vec::new();
-    for (at, body) in magnets.iter().map(Body::from).enumerate() {
-        let is_upright_disc = body.stands && body.shape == Shape::Disc;
-        let is_like = |group: &Group| {
-            let aside = group.like.direction.perp(&body.direction).abs();
-            group.like.is_like(&body) && (is_upright_disc || aside < SAME_DIRECTION)
-        };
-        let number = groups.iter().position(is_like).unwrap_or(groups.len());
-        if number == groups.len() {
-            let like = Body {
-                position: Vector2::zeros(),
-                moment: 1.0,
-                ..body
+impl Magnets {
+    /// Magnets by size and axis, up to its sign: each looks the same after half a turn, but for the pole of
+    /// one that lies.
+    fn new(magnets: &[Magnet]) -> Self {
+        let bodies: Vec<_> = magnets.iter().map(Body::from).collect();
+        let mut groups: Vec<Alike> = Vec::new();
+        for (at, body) in bodies.iter().enumerate() {
+            let is_upright_disc = body.stands && body.shape == Shape::Disc;
+            let is_like = |group: &Alike| {
+                let aside = group.like.direction.perp(&body.direction).abs();
+                group.like.is_like(body) && (is_upright_disc || aside < SAME_DIRECTION)
             };
-            let members = Members::default();
-            groups.push(Group { like, members });
+            let number = groups.iter().position(is_like).unwrap_or(groups.len());
+            if number == groups.len() {
+                let like = Body {
+                    position: Vector2::zeros(),
+                    moment: 1.0,
+                    ..*body
+                };
+                let members = Group::new(number, like.direction);
+                groups.push(Alike { like, members });
+            }
+            let group = &mut groups[number];
+            let turned = !body.stands && group.like.direction.dot(&body.direction) < 0.0;
+            let moment = if turned { -body.moment } else { body.moment };
+            group.members.push(at, body.position, moment);
         }
-        let group = &mut groups[number];
-        let turned = !body.stands && group.like.direction.dot(&body.direction) < 0.0;
-        let moment = if turned { -body.moment } else { body.moment };
-        group.members.push(at, body.position, moment);
+        Self { bodies, groups }
     }
-    groups
+
+    /// The places (m) and moments (A m^2) of a group.
+    fn places<'a>(
+        &'a self,
+        group: &'a Alike,
+    ) -> impl Iterator<Item = (Vector2<f64>, f64)> + Clone + 'a {
+        let members = group.members.members.iter().zip(&group.members.moment);
+        members.map(|(at, moment)| (self.bodies[*at].position, *moment))
+    }
 }
 
 impl Pairs {
@@ -199,24 +217,13 @@ impl Pairs {
         if first.stands != second.stands {
             return None;
         }
-        let series = Series::new(first, second);
-        let (squares, limits) = match model {
-            MagnetModel::Dipole => (vec![0.0], None),
-            MagnetModel::Cuboid => (
-                (1..=series::TERMS)
-                    .map(|terms| series.radius(terms, error).powi(2))
-                    .collect(),
-                Some(Limits::new(first, second)),
-            ),
-        };
-        let squares: Vec<f64> = squares;
-        let reach = squares.last().copied().unwrap_or(0.0).sqrt();
+        let far = series::series(model, first, second, error);
+        let reach = far.near().sqrt();
         let is_coarse = error > HAND_OVER && reach > 0.0;
         Some(Self {
             nearby: is_coarse.then(|| Arc::new(Nearby::new(first, second, reach, error))),
-            series,
-            squares,
-            limits,
+            far,
+            limits: (model == MagnetModel::Cuboid).then(|| Limits::new(first, second)),
         })
     }
 }
@@ -235,13 +242,16 @@ impl BodyPotential {
         let all = fixed.iter().chain(moving);
         let sides = all.flat_map(|magnet| [magnet.size[0], magnet.size[1]]);
         let feature = sides.fold(f64::INFINITY, f64::min) / 2.0;
-        let (fixed, moving) = (groups(fixed), groups(moving));
-        let of = |first: &Group| {
-            let pairs = |second: &Group| Pairs::new(model, &first.like, &second.like, error);
-            moving.iter().map(pairs).collect()
+        let (mut fixed, moving) = (Magnets::new(fixed), Magnets::new(moving));
+        for group in &mut fixed.groups {
+            group.members.fill();
+        }
+        let of = |first: &Alike| {
+            let pairs = |second: &Alike| Pairs::new(model, &first.like, &second.like, error);
+            moving.groups.iter().map(pairs).collect()
         };
         Self {
-            pairs: fixed.iter().map(of).collect(),
+            pairs: fixed.groups.iter().map(of).collect(),
             fixed,
             moving,
             lever,
@@ -249,37 +259,26 @@ impl BodyPotential {
         }
     }
 
-    /// Calls `each` with the common data of each pair of groups, except those of a lying and an
-    /// upright one.
-    fn for_each(&self, q: &Configuration, mut each: impl FnMut(&Group, &Group, &Body, &Pairs)) {
-        let (sin, cos) = libm::sincos(q.theta);
-        for (first, pairs) in self.fixed.iter().zip(&self.pairs) {
-            for (second, pairs) in self.moving.iter().zip(pairs) {
-                if let Some(pairs) = pairs {
-                    let turned = second.like.moved([cos, sin], Vector2::zeros());
-                    each(first, second, &turned, pairs);
-                }
-            }
-        }
+    /// The pairs of groups and what they have in common, except those of a lying and an upright one.
+    fn of_groups(&self) -> impl Iterator<Item = ([&Alike; 2], &Pairs)> {
+        let first = self.fixed.groups.iter().zip(&self.pairs);
+        first.flat_map(|(first, pairs)| {
+            let second = self.moving.groups.iter().zip(pairs);
+            second.filter_map(move |(second, pairs)| Some(([first, second], pairs.as_ref()?)))
+        })
     }
 
     /// The distance (m) from which on the series is used for all pairs; 0 for dipoles.
     #[cfg(test)]
     pub(super) fn reach(&self) -> f64 {
         let pairs = self.pairs.iter().flatten().flatten();
-        let last = pairs.filter_map(|pairs| pairs.squares.last());
-        last.fold(0.0, |most: f64, square| most.max(square.sqrt()))
+        pairs.fold(0.0, |most: f64, pairs| most.max(pairs.far.near().sqrt()))
     }
 
     /// The sum over pairs (J), its gradient by the second tile's place (J/m) and turn (J/rad).
     fn sum<const SLOPE: bool>(&self, q: &Configuration) -> (f64, Vector3<f64>) {
-        let mut sum = (0.0, Vector3::zeros());
-        self.for_each(q, |first, second, turned, pairs| {
-            let of = sum::of::<SLOPE>([first, second], turned, pairs, q);
-            sum.0 += of.0;
-            sum.1 += of.1;
-        });
-        finite(sum.0, sum.1)
+        let (energy, gradient) = Level::best().run(Sum::<SLOPE> { potential: self, q });
+        finite(energy, gradient)
     }
 
     /// The sum of a bound over all pairs: the arguments of `bound` are the greatest radius (m)
@@ -290,27 +289,21 @@ impl BodyPotential {
         q: &Configuration,
         bound: impl Fn(f64, f64, &Option<Limits>, f64) -> f64,
     ) -> f64 {
-        let (sin, cos) = libm::sincos(q.theta);
+        let rotation = q.rotation();
         let mut sum = 0.0;
-        self.for_each(q, |first, second, _, pairs| {
+        for ([first, second], pairs) in self.of_groups() {
             let radii = match pairs.limits {
                 Some(_) => first.like.radius() + second.like.radius(),
                 None => 0.0,
             };
-            for (place, m2) in second.members.iter() {
-                let arm =
-                    Vector2::new(cos * place.x - sin * place.y, sin * place.x + cos * place.y);
-                for (from, m1) in first.members.iter() {
-                    let distance = (arm + q.position() - from).norm();
-                    sum += bound(
-                        radii,
-                        distance,
-                        &pairs.limits,
-                        MU0_OVER_4PI * (m1 * m2).abs(),
-                    );
+            for (place, m2) in self.moving.places(second) {
+                let place = rotation * place + q.position();
+                for (from, m1) in self.fixed.places(first) {
+                    let strength = MU0_OVER_4PI * (m1 * m2).abs();
+                    sum += bound(radii, (place - from).norm(), &pairs.limits, strength);
                 }
             }
-        });
+        }
         sum
     }
 }

@@ -1,12 +1,15 @@
 //! The energy of two magnets close to each other, by their charged faces.
 
+use arrayvec::ArrayVec;
 use nalgebra::Vector2;
 
 use super::Body;
+use super::edges;
 use super::face::{Face, Integral, Shape as Charged};
-use super::{edges, line};
-use crate::potential::cuboid::block::{Block, PairEnergy};
+use super::line::{self, Placed};
+use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::exact as blocks;
+use crate::potential::far::PairEnergy;
 use crate::tile::magnet::Shape;
 use crate::units::MU0_OVER_4PI;
 
@@ -42,11 +45,8 @@ fn strength(first: &Body, second: &Body) -> f64 {
 fn standing(first: &Body, second: &Body) -> PairEnergy {
     // The two of like signs are each other's mirror images, and so are the others.
     let strength = 2.0 * strength(first, second);
-    let mut sum = PairEnergy::default();
     if [first.shape, second.shape] == [Shape::Block; 2] {
-        let integral = edges::integral(first, second);
-        add(&mut sum, &integral, strength, Vector2::zeros());
-        return sum;
+        return scaled(&edges::integral(first, second), strength);
     }
     let face = |body: &Body, side: f64| {
         let [a, b, height] = body.size;
@@ -56,11 +56,14 @@ fn standing(first: &Body, second: &Body) -> PairEnergy {
         };
         Face::flat(body.position, body.direction, side * height / 2.0, shape)
     };
-    for side in [1.0, -1.0] {
-        let integral = integral(&face(first, 1.0), &face(second, side));
-        add(&mut sum, &integral, strength * side, Vector2::zeros());
-    }
-    sum
+    let own = face(first, 1.0);
+    let others = [1.0, -1.0].map(|side| face(second, side));
+    let places = [0, 1].map(|k| Placed {
+        centres: [own.centre, others[k].centre],
+        share: [1.0, -1.0][k],
+        offset: Vector2::zeros(),
+    });
+    scaled(&integral(&own, &others[0], &places), strength)
 }
 
 fn lying(first: &Body, second: &Body) -> PairEnergy {
@@ -76,8 +79,7 @@ fn lying(first: &Body, second: &Body) -> PairEnergy {
             offset,
         )
     };
-    let strength = strength(first, second);
-    let mut sum = PairEnergy::default();
+    let mut places = ArrayVec::<_, 4>::new();
     for own in [1.0, -1.0] {
         let (from, _) = face(first, own);
         for side in [1.0, -1.0] {
@@ -89,26 +91,42 @@ fn lying(first: &Body, second: &Body) -> PairEnergy {
                 let shift = outwards * (apart - height);
                 to.centre += nalgebra::Vector3::new(shift.x, shift.y, 0.0);
             }
-            let integral = integral(&from, &to);
-            add(&mut sum, &integral, strength * own * side, offset);
+            places.push(Placed {
+                centres: [from.centre, to.centre],
+                share: own * side,
+                offset,
+            });
         }
     }
-    sum
+    let [from, to] = [first, second].map(|body| face(body, 1.0).0);
+    scaled(&integral(&from, &to, &places), strength(first, second))
 }
 
-/// Adds an integral times a strength (J/m^3) to a pair's energy; the second face's centre is
-/// `offset` (m) from its magnet's.
-fn add(sum: &mut PairEnergy, integral: &Integral, strength: f64, offset: Vector2<f64>) {
-    sum.energy += strength * integral.value;
-    sum.gradient += integral.gradient * strength;
-    sum.slope += strength * (integral.slope + offset.perp(&integral.gradient));
+/// The energy of faces of a strength (J/m^3).
+fn scaled(integral: &Integral, strength: f64) -> PairEnergy {
+    PairEnergy {
+        energy: strength * integral.value,
+        gradient: integral.gradient * strength,
+        slope: strength * integral.slope,
+    }
 }
 
-/// The integral over two faces that do not meet: both upright or both flat, one of them a disc.
-pub fn integral(first: &Face, second: &Face) -> Integral {
+/// The integral over two faces that do not meet, both upright or both flat, one of them a disc.
+pub fn alone(first: &Face, second: &Face) -> Integral {
+    let place = Placed {
+        centres: [first.centre, second.centre],
+        share: 1.0,
+        offset: Vector2::zeros(),
+    };
+    integral(first, second, &[place])
+}
+
+/// The sum of the integrals over two faces that do not meet, at several places: both upright or both flat,
+/// one of them a disc.
+fn integral(first: &Face, second: &Face, places: &[Placed]) -> Integral {
     match [first.shape, second.shape] {
-        [Charged::Disc(radius), _] => line::integral(first, radius, second, false),
-        [_, Charged::Disc(radius)] => line::integral(second, radius, first, true),
+        [Charged::Disc(radius), _] => line::integral(first, radius, second, false, places),
+        [_, Charged::Disc(radius)] => line::integral(second, radius, first, true, places),
         [Charged::Rectangle(_), Charged::Rectangle(_)] => unreachable!("blocks have closed forms"),
     }
 }

@@ -15,7 +15,7 @@ use nalgebra::Vector2;
 
 use super::Body;
 use super::near::exact;
-use crate::potential::cuboid::block::PairEnergy;
+use crate::potential::far::PairEnergy;
 use crate::units::MU0_OVER_4PI;
 
 /// Nodes along each direction of a box.

@@ -24,7 +24,7 @@
 use nalgebra::Vector2;
 
 use super::face::{Face, Shape as Charged};
-use super::near::integral;
+use super::near::alone;
 use super::{Body, BodyPotential, HAND_OVER};
 use crate::configuration::Configuration;
 use crate::potential::{MagnetModel, Potential};
@@ -185,7 +185,7 @@ impl Discs {
             Face::flat(place, Vector2::x(), 0.0, Charged::Disc(radius))
         };
         let [one, other] = self.radii;
-        integral(&face(0.0, one), &face(r, other)).gradient.x
+        alone(&face(0.0, one), &face(r, other)).gradient.x
     }
 
     /// Bounds of the fifth derivative (J/m^5) from each of some distances on.

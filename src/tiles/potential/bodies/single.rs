@@ -2,15 +2,16 @@
 
 use nalgebra::{Complex, Vector2};
 
-use super::complex::Z;
 use super::near::exact;
-use super::series::{Coefficients, Sums};
-use super::{Body, BodyPotential, Group, Pairs};
+use super::{Alike, Body, BodyPotential, Pairs};
 use crate::configuration::Configuration;
-use crate::potential::cuboid::block::PairEnergy;
+use crate::potential::far::PairEnergy;
+use crate::potential::far::group::Group;
+use crate::potential::far::multipole::Coefficients;
+use crate::potential::far::rows::{Facing, Lane};
+use crate::potential::far::terms::{self, Sums, add_terms};
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
-use crate::units::MU0_OVER_4PI;
 
 /// Two magnets that both lie or both stand.
 pub(in crate::potential) struct Single<'a> {
@@ -24,6 +25,11 @@ pub(in crate::potential) struct Single<'a> {
 }
 
 impl Single<'_> {
+    /// The energy.
+    pub fn still(&self) -> PairEnergy {
+        self.far.unwrap_or_else(|| exact(&self.first, &self.second))
+    }
+
     /// The energy with the second magnet moved (m) and turned about its centre (rad).
     pub fn moved(&self, way: Vector2<f64>, turn: f64) -> PairEnergy {
         let (sin, cos) = libm::sincos(turn);
@@ -36,37 +42,28 @@ impl Single<'_> {
             ),
             ..self.second
         };
-        if !self
-            .pairs
-            .is_far((second.position - self.first.position).norm_squared())
-        {
+        let way = second.position - self.first.position;
+        if way.norm_squared() < self.pairs.far.near() {
             return exact(&self.first, &second);
         }
-        let (mut found, mut known) = (None, Coefficients::NONE);
+        let group = |body: &Body| {
+            let mut group = Group::new(0, body.direction);
+            group.push(0, body.position, body.moment);
+            group
+        };
+        let (mut fixed, moving) = (group(&self.first), group(&second));
+        fixed.fill();
+        let mut found = PairEnergy::default();
         Level::best().run(Far {
-            first: &self.first,
-            second: &second,
-            froms: &[self.first.position],
-            pairs: self.pairs,
-            known: &mut known,
-            each: &mut |_, energy| found = energy,
+            facing: Facing::new(
+                &self.pairs.far,
+                [&fixed, &moving],
+                &Configuration::new(0.0, 0.0, 0.0),
+                Complex::new(1.0, 0.0),
+            ),
+            each: &mut |_, lane| found = lane.pair,
         });
-        let energy = found.unwrap_or_default();
-        scaled(&energy, self.first.moment * self.second.moment)
-    }
-}
-
-fn scaled(energy: &PairEnergy, by: f64) -> PairEnergy {
-    PairEnergy {
-        energy: energy.energy * by,
-        gradient: energy.gradient * by,
-        slope: energy.slope * by,
-    }
-}
-
-impl Pairs {
-    fn is_far(&self, square: f64) -> bool {
-        self.squares.last().is_some_and(|least| square >= *least)
+        found
     }
 }
 
@@ -79,59 +76,42 @@ impl BodyPotential {
         skipped: impl Fn(&Body, &Body) -> bool,
         mut each: impl FnMut(&Single),
     ) {
-        self.for_each(q, |first, second, turned, pairs| {
-            if skipped(&first.like, turned) {
-                return;
+        let (sin, cos) = libm::sincos(q.theta);
+        for ([first, second], pairs) in self.of_groups() {
+            let turned = second.like.moved([cos, sin], Vector2::zeros());
+            if skipped(&first.like, &turned) {
+                continue;
             }
-            let mut known = Coefficients::NONE;
-            let froms: Vec<_> = first.members.iter().map(|(place, _)| place).collect();
-            for (j, (place, m2)) in second.members.iter().enumerate() {
-                let moved = Body {
-                    position: q.transform(place),
-                    moment: m2,
-                    ..*turned
-                };
-                let mut found = |i: usize, energy: Option<PairEnergy>| {
-                    let (from, m1) = first.members.at(i);
-                    let own = Body {
-                        position: from,
-                        moment: m1,
-                        ..first.like
-                    };
-                    each(&Single {
-                        numbers: [number(first, i), number(second, j)],
-                        first: own,
-                        second: moved,
-                        far: energy.map(|energy| scaled(&energy, m1 * m2)),
-                        pairs,
-                    });
-                };
-                Level::best().run(Far {
-                    first: &first.like,
-                    second: &moved,
-                    froms: &froms,
+            let body = |alike: &Alike, place: Vector2<f64>, at: usize, like: &Body| Body {
+                position: place,
+                moment: alike.members.moment[at],
+                ..*like
+            };
+            let mut found = |[i, j]: [usize; 2], lane: &Lane| {
+                let numbers = [first.members.members[i], second.members.members[j]];
+                let from = self.fixed.bodies[numbers[0]].position;
+                let place = q.transform(self.moving.bodies[numbers[1]].position);
+                each(&Single {
+                    numbers,
+                    first: body(first, from, i, &first.like),
+                    second: body(second, place, j, &turned),
+                    far: (lane.square >= pairs.far.near()).then_some(lane.pair),
                     pairs,
-                    known: &mut known,
-                    each: &mut found,
                 });
-            }
-        });
+            };
+            let groups = [&first.members, &second.members];
+            Level::best().run(Far {
+                facing: Facing::new(&pairs.far, groups, q, Complex::new(cos, sin)),
+                each: &mut found,
+            });
+        }
     }
 }
 
-fn number(group: &Group, member: usize) -> usize {
-    group.members.numbers[member]
-}
-
-/// The energies for moments of 1 A m^2 of like magnets at some places (m) and another one, `None` of those
-/// that are too close for the series.
+/// The energies of all pairs of two groups by their series, which are wrong of those that are too close.
 struct Far<'a> {
-    first: &'a Body,
-    second: &'a Body,
-    froms: &'a [Vector2<f64>],
-    pairs: &'a Pairs,
-    known: &'a mut Coefficients,
-    each: &'a mut dyn FnMut(usize, Option<PairEnergy>),
+    facing: Facing<'a>,
+    each: &'a mut dyn FnMut([usize; 2], &Lane),
 }
 
 impl Task for Far<'_> {
@@ -139,52 +119,36 @@ impl Task for Far<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        let (axis, turned) = (self.first.direction, self.second.direction);
-        let beta = Complex::new(axis.dot(&turned), axis.perp(&turned));
-        for (chunk, froms) in self.froms.chunks(WIDTH).enumerate() {
-            let (mut re, mut im, mut square) = ([1.0; WIDTH], [0.0; WIDTH], [1.0; WIDTH]);
-            let mut terms = 0;
-            for (lane, from) in froms.iter().enumerate() {
-                let way = self.second.position - from;
-                let r2 = way.norm_squared();
-                if self.pairs.is_far(r2) {
-                    (re[lane], im[lane], square[lane]) = (axis.dot(&way), axis.perp(&way), r2);
-                    let enough = self.pairs.squares.iter().position(|least| r2 >= *least);
-                    terms = terms.max(enough.map_or(self.pairs.squares.len(), |k| k + 1));
+        let Facing {
+            form,
+            groups: [fixed, moving],
+            turn,
+            centre,
+        } = self.facing;
+        let mut coefficients = Coefficients::NONE;
+        let mut known = 0;
+        for j in 0..moving.count {
+            let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
+            for from in (0..fixed.x.len()).step_by(WIDTH) {
+                let mut pairs = terms::Pairs::new(l, fixed, from, place, moving.moment[j]);
+                // Those that are too close need not be right.
+                let is_far = l.sub(pairs.rr, l.splat(form.near()));
+                pairs.inverse = l.select(is_far, pairs.inverse, l.splat(0.0));
+                let least = l.least(l.select(is_far, pairs.rr, l.splat(f64::MAX)));
+                let terms = form.terms(&form.squares, least);
+                if known < terms {
+                    let known = known..terms;
+                    form.series
+                        .evaluate::<L, true>(l, turn, known, &mut coefficients);
                 }
-            }
-            self.pairs.series.complete::<true>(self.known, beta, terms);
-            let way = Z {
-                re: l.load(&re),
-                im: l.load(&im),
-            };
-            let r2 = l.load(&square);
-            let Sums {
-                energy,
-                radial,
-                angular,
-                turn,
-            } = self.known.sum::<L, true>(l, terms, way, r2);
-            let fx = l.neg_mul_add(way.im, angular, l.mul(way.re, radial));
-            let fy = l.mul_add(way.re, angular, l.mul(way.im, radial));
-            let mut all = [[0.0; WIDTH]; 4];
-            for (to, from) in all
-                .iter_mut()
-                .zip([energy, l.div(fx, r2), l.div(fy, r2), turn])
-            {
-                l.store(from, to);
-            }
-            for (lane, from) in froms.iter().enumerate() {
-                let is_far = self
-                    .pairs
-                    .is_far((self.second.position - from).norm_squared());
-                let [energy, x, y, slope] = all.map(|it| -MU0_OVER_4PI * it[lane]);
-                let found = PairEnergy {
-                    energy,
-                    gradient: axis * x + Vector2::new(-axis.y, axis.x) * y,
-                    slope,
-                };
-                (self.each)(chunk * WIDTH + lane, is_far.then_some(found));
+                known = known.max(terms);
+                let mut sums = Sums::zero(l);
+                add_terms::<L, true>(l, terms, &coefficients, &pairs, &mut sums);
+                let lanes = Lane::split(l, &sums, pairs.rr, fixed.axis);
+                let count = (fixed.count - from).min(WIDTH);
+                for (lane, found) in lanes[..count].iter().enumerate() {
+                    (self.each)([from + lane, j], found);
+                }
             }
         }
     }

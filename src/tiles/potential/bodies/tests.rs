@@ -3,7 +3,7 @@
 use nalgebra::{Vector2, Vector3};
 
 use super::face::{Face, Shape};
-use super::near::{exact, integral};
+use super::near::{alone as integral, exact};
 use super::{Body, BodyPotential};
 use crate::configuration::Configuration;
 use crate::potential::cuboid::quadrature::gauss_legendre;

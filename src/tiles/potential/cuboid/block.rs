@@ -73,18 +73,6 @@ impl Block {
     }
 }
 
-/// Energy (J) of two blocks, its gradient by the second block's centre (J/m) and its derivative
-/// by the second block's angle about its own centre (J/rad).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PairEnergy {
-    /// U (J).
-    pub energy: f64,
-    /// By the second block's centre (J/m).
-    pub gradient: Vector2<f64>,
-    /// By the second block's angle about its own centre (J/rad).
-    pub slope: f64,
-}
-
 /// Two blocks as four pairs of pole faces, all at the same angle. Coordinates are those of the
 /// first block's pole faces: x along them, h against the axis (see [`super::sheet`]).
 #[derive(Clone, Copy, Debug)]

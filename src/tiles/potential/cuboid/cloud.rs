@@ -2,8 +2,9 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::block::{Block, PairEnergy};
+use super::block::Block;
 use super::quadrature::gauss_legendre;
+use crate::potential::far::PairEnergy;
 use crate::units::MU0_OVER_4PI;
 
 /// The charges (A m) of a block, N x N on each pole face, and their places (m).

@@ -2,10 +2,12 @@
 
 use nalgebra::{Complex, Vector3};
 
-use super::far::{self, Group, Pairs, Sums};
-use super::multipole::{Coefficients, index};
-use super::{CuboidPotential, Far};
+use super::CuboidPotential;
 use crate::configuration::Configuration;
+use crate::potential::far::group::Group;
+use crate::potential::far::multipole::{Coefficients, index};
+use crate::potential::far::rows::Facing;
+use crate::potential::far::terms::{Pairs, Sums, add_terms};
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
@@ -31,9 +33,11 @@ impl Task for Correction<'_> {
         let mut coefficients = Coefficients::NONE;
         for moving in &self.potential.moving_groups {
             for fixed in &self.potential.fixed_groups {
-                let (far, turn, centre) =
-                    self.potential
-                        .facing([fixed, moving], self.q, Complex::new(cos, sin));
+                let Facing {
+                    form, turn, centre, ..
+                } = self
+                    .potential
+                    .facing([fixed, moving], self.q, Complex::new(cos, sin));
                 let mut sums = Sums::zero(l);
                 let mut known = 0;
                 for (j, &second) in moving.members.iter().enumerate() {
@@ -51,9 +55,9 @@ impl Task for Correction<'_> {
                         let counts = l.sub(mask, l.splat(0.5));
                         pairs.inverse = l.select(counts, pairs.inverse, l.splat(0.0));
                         let least = l.least(l.select(counts, pairs.rr, l.splat(f64::MAX)));
-                        let terms = Far::terms(&far.squares, least);
+                        let terms = form.terms(&form.squares, least);
                         if known < terms {
-                            far.series.evaluate::<L, true>(
+                            form.series.evaluate::<L, true>(
                                 l,
                                 turn,
                                 known..terms,
@@ -62,7 +66,7 @@ impl Task for Correction<'_> {
                             without_dipole(&mut coefficients);
                             known = terms;
                         }
-                        far::add_terms::<L, true>(l, terms, &coefficients, &pairs, &mut sums);
+                        add_terms::<L, true>(l, terms, &coefficients, &pairs, &mut sums);
                     }
                 }
                 total.add::<L, true>(l, &sums, fixed.axis);

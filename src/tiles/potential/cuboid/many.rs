@@ -4,10 +4,10 @@
 //! distribution of dipoles, so the derivatives of the energy of two groups are bounded by those of
 //! dipoles as far apart as the nearest points of their blocks, with the sums of the moments.
 
-use super::far::Group;
-use super::{Far, HAND_OVER, SizedBlock};
+use super::{HAND_OVER, SizedBlock, Sizes};
 use crate::configuration::Configuration;
 use crate::potential::dipole::Dipole;
+use crate::potential::far::group::Group;
 use crate::potential::groups::are_many;
 use crate::potential::groups::tree::{self, Grain, Tree};
 use crate::potential::groups::walk::{self, Leeway, Walk};
@@ -54,17 +54,22 @@ pub struct BlockGroups<'a> {
 impl Many {
     /// Groups of the blocks of two tiles, given their groups by size and axis; `None` if groups do not
     /// pay.
-    pub fn new(blocks: [&[SizedBlock]; 2], kinds: [&[Group]; 2], far: &[Vec<Far>]) -> Option<Self> {
+    pub fn new(
+        blocks: [&[SizedBlock]; 2],
+        kinds: [&[Group]; 2],
+        sizes: &[Vec<Sizes>],
+    ) -> Option<Self> {
         if !are_many(blocks[0].len(), blocks[1].len()) {
             return None;
         }
         let sides = [0, 1].map(|side| Side::new(blocks[side], kinds[side]));
         let has_stands = |side: &Side| side.tree.iter().any(|group| !group.stands.is_empty());
-        let largest = |value: fn(&Far) -> f64| far.iter().flatten().map(value).fold(0.0, f64::max);
+        let largest =
+            |value: fn(&Sizes) -> f64| sizes.iter().flatten().map(value).fold(0.0, f64::max);
         sides.iter().any(has_stands).then(|| Self {
             sides,
-            least: largest(|far| far.near().sqrt()) * (1.0 + 1e-9),
-            radii: largest(|far| far.radii),
+            least: largest(|sizes| sizes.far.near().sqrt()) * (1.0 + 1e-9),
+            radii: largest(|sizes| sizes.radii),
         })
     }
 

@@ -9,7 +9,7 @@
 //!   Gauss quadrature (`sheet`, `panel`, `quadrature`); the discontinuous parts of the gradient's
 //!   integrands are treated separately (`closed`).
 //! * Beyond about three block sizes, where closed forms lose digits, the multipole series is used
-//!   (`multipole`, `far`), with ten terms at first and down to two farther out. The bound of the
+//!   ([`far`](super::far)), with ten terms at first and down to two farther out. The bound of the
 //!   omitted terms decides: 1e-9 of `mu0 m1 m2 / (4 pi r^3)`, for the strongest pair if pairs are
 //!   summed.
 //!
@@ -32,12 +32,10 @@
 pub mod block;
 mod closed;
 #[cfg(test)]
-mod cloud;
+pub(in crate::potential) mod cloud;
 pub(in crate::potential) mod correction;
-mod far;
 pub mod limits;
 mod many;
-pub(in crate::potential) mod multipole;
 mod panel;
 pub(crate) mod quadrature;
 pub(in crate::potential) mod sheet;
@@ -46,19 +44,22 @@ mod table;
 
 use std::sync::Arc;
 
-use nalgebra::{Complex, Vector3};
+use nalgebra::{Complex, Vector2, Vector3};
 
 use super::dipole::dipoles;
+use super::far::FarForm;
+pub use super::far::PairEnergy;
+use super::far::group::Group;
+use super::far::multipole::{Form, Multipole, along, composed, product, squares};
+use super::far::rows::Facing;
 use super::lever::Lever;
 use super::simd::Level;
 use super::{DipolePotential, Potential, motion};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
-pub use block::{Block, PairEnergy};
-use far::{Group, STEPS};
+pub use block::Block;
 use limits::Limits;
 use many::{BlockGroups, Many};
-use multipole::{Multipole, TERMS};
 pub use panel::exact;
 use sum::{Each, Sum};
 use table::Field;
@@ -77,7 +78,7 @@ pub struct CuboidPotential {
     fixed_groups: Vec<Group>,
     moving_groups: Vec<Group>,
     /// For each size of a fixed block and each size of a moving one.
-    far: Vec<Vec<Far>>,
+    sizes: Vec<Vec<Sizes>>,
     many: Option<Many>,
     field: Option<Arc<Field>>,
     /// The blocks as dipoles.
@@ -92,70 +93,47 @@ struct SizedBlock {
     size: usize,
 }
 
-/// The far form of blocks of two sizes.
+/// What pairs of blocks of two sizes have in common.
 #[derive(Clone, Debug)]
-struct Far {
-    series: Multipole,
+struct Sizes {
+    far: FarForm,
     /// Bounds for moments of 1 A m^2.
     limits: Limits,
     /// The sum of the blocks' radii (m).
     radii: f64,
-    /// The squared distances (m^2) beyond which each of [`STEPS`] suffices, for a single pair.
-    squares: [f64; STEPS.len()],
-    /// The same among stronger pairs: row i is for errors of [`HAND_OVER`] times `4^(i - WEAKEST)
-    /// near^-3`, near the distance at which the far form replaces pole faces.
-    among: [[f64; STEPS.len()]; ROWS],
 }
 
-/// The number of rows of [`Far::among`], and the row for pairs at the hand-over itself.
-const ROWS: usize = 20;
-const WEAKEST: i32 = 15;
+/// Terms of the series that are summed, and that enter the bound of the error.
+const TERMS: usize = 10;
+const BOUND_TERMS: usize = 16;
 
-impl Far {
+/// The terms of degree 1, 3, 5 .. of `S d_a`, in the block's own directions.
+fn operator(size: [f64; 3]) -> Vec<Form> {
+    let sides = squares().into_iter().zip(size);
+    let parts: Vec<_> = sides
+        .map(|(square, length)| along(&square, BOUND_TERMS, length))
+        .collect();
+    let forms = composed(&parts, BOUND_TERMS);
+    forms
+        .iter()
+        .map(|form| product(form, &[1.0, 1.0]))
+        .collect()
+}
+
+/// The series of blocks of two sizes.
+pub(in crate::potential) fn series(first: [f64; 3], second: [f64; 3]) -> Multipole {
+    Multipole::new([&operator(first), &operator(second)], TERMS)
+}
+
+impl Sizes {
     fn new(first: [f64; 3], second: [f64; 3]) -> Self {
-        let series = Multipole::new(first, second);
-        let squares = STEPS.map(|terms| series.radius(terms, HAND_OVER).powi(2));
-        let near = squares[STEPS.len() - 1].sqrt();
-        let among = std::array::from_fn(|row| {
-            let scale = 4f64.powi(row as i32 - WEAKEST) / near.powi(3);
-            STEPS.map(|terms| series.radius_among(terms, HAND_OVER * scale).powi(2))
-        });
+        let far = FarForm::new(series(first, second), HAND_OVER);
         let [first, second] = [first, second].map(|size| Block::new(1.0, size));
         Self {
-            squares,
-            among,
+            far,
             limits: Limits::new(&first, &second),
             radii: first.radius() + second.radius(),
-            series,
         }
-    }
-
-    /// The squared distances (m^2) beyond which each of [`STEPS`] suffices, if the `m1 m2 / r^3` of
-    /// the strongest pair is `strongest` (m^-3) times the product of the pair's own moments.
-    #[inline(always)]
-    fn steps(&self, strongest: f64) -> &[f64; STEPS.len()] {
-        let near = self.near();
-        let ratio = strongest * near * near.sqrt();
-        // The power of two, halved and rounded down, so that no more error than this is allowed.
-        let power = (ratio.to_bits() >> 52) as i32 - 1023;
-        let row = power.div_euclid(2) + WEAKEST;
-        if row < 0 {
-            &self.squares
-        } else {
-            &self.among[(row as usize).min(ROWS - 1)]
-        }
-    }
-
-    /// How many terms are summed at this squared distance (m^2), given what each number needs.
-    #[inline(always)]
-    fn terms(steps: &[f64; STEPS.len()], square: f64) -> usize {
-        let enough = STEPS.iter().zip(steps).find(|(_, least)| square >= **least);
-        enough.map_or(TERMS, |(terms, _)| *terms)
-    }
-
-    /// The squared distance (m^2) below which the pole faces of a single pair are summed.
-    fn near(&self) -> f64 {
-        self.squares[STEPS.len() - 1]
     }
 }
 
@@ -197,6 +175,16 @@ fn groups(blocks: &[SizedBlock]) -> Vec<Group> {
     groups
 }
 
+/// Block number `at` of a group of the tile's blocks: with the group's axis and the moment along it.
+#[inline(always)]
+fn member(group: &Group, blocks: &[SizedBlock], at: usize) -> Block {
+    Block {
+        axis: Vector2::new(group.axis.re, group.axis.im),
+        moment: group.moment[at],
+        ..blocks[group.members[at]].block
+    }
+}
+
 /// Axes that differ by less than this (rad) count as equal in the far form.
 const SAME_DIRECTION: f64 = 1e-12;
 
@@ -215,24 +203,24 @@ impl CuboidPotential {
         for group in &mut fixed_groups {
             group.fill();
         }
-        let far: Vec<Vec<Far>> = fixed_sizes
+        let sizes: Vec<Vec<Sizes>> = fixed_sizes
             .iter()
             .map(|first| {
                 moving_sizes
                     .iter()
-                    .map(|second| Far::new(*first, *second))
+                    .map(|second| Sizes::new(*first, *second))
                     .collect()
             })
             .collect();
         let field = Field::new((&fixed, &fixed_groups), (&moving, &moving_sizes), level);
-        let many = Many::new([&fixed, &moving], [&fixed_groups, &moving_groups], &far);
+        let many = Many::new([&fixed, &moving], [&fixed_groups, &moving_groups], &sizes);
         Self {
             level,
             fixed,
             moving,
             fixed_groups,
             moving_groups,
-            far,
+            sizes,
             many,
             field: field.map(Arc::new),
             dipoles,
@@ -245,32 +233,26 @@ impl CuboidPotential {
     /// The distance (m) between centres beyond which the multipole series replaces every pair of
     /// blocks.
     pub(in crate::potential) fn hand_over(&self) -> f64 {
-        let all = self.far.iter().flatten();
-        all.map(|far| far.near().sqrt()).fold(0.0, f64::max)
+        let all = self.sizes.iter().flatten();
+        all.map(|sizes| sizes.far.near().sqrt()).fold(0.0, f64::max)
     }
 
     /// The bounds of the derivatives of the fixed block `i` and the moving block `j`, for moments of
     /// 1 A m^2.
     pub(in crate::potential) fn limits(&self, i: usize, j: usize) -> &Limits {
-        &self.far[self.fixed[i].size][self.moving[j].size].limits
+        &self.sizes[self.fixed[i].size][self.moving[j].size].limits
     }
 
-    /// The far form of two groups at a configuration with this rotation, e^(i times the angle
-    /// between their axes), and the moving tile's place (m): in the frame whose x axis is the fixed
-    /// blocks' axis.
+    /// Two groups at a configuration with this rotation.
     #[inline(always)]
-    fn facing(
-        &self,
-        [fixed, moving]: [&Group; 2],
+    fn facing<'a>(
+        &'a self,
+        groups: [&'a Group; 2],
         q: &Configuration,
         rotation: Complex<f64>,
-    ) -> (&Far, Complex<f64>, Complex<f64>) {
-        let into = fixed.axis.conj();
-        (
-            &self.far[fixed.size][moving.size],
-            moving.axis * rotation * into,
-            Complex::new(q.x, q.y) * into,
-        )
+    ) -> Facing<'a> {
+        let sizes = &self.sizes[groups[0].size][groups[1].size];
+        Facing::new(&sizes.far, groups, q, rotation)
     }
 
     /// The energies of all pairs of blocks; the pair of the fixed tile's block i and the moving
@@ -304,7 +286,7 @@ impl Potential for CuboidPotential {
         let turn = self.lever.turn();
         let of_pair = |first: &SizedBlock, second: &SizedBlock| {
             let moved = second.block.moved(cos, sin, q.position());
-            let Far { limits, radii, .. } = &self.far[first.size][second.size];
+            let Sizes { limits, radii, .. } = &self.sizes[first.size][second.size];
             let r = (moved.position - first.block.position).norm();
             let distance = r - radii - reach;
             let apart = limits.curvature(turn, distance);
@@ -325,7 +307,7 @@ impl Potential for CuboidPotential {
         };
         let of_groups = |it: BlockGroups| {
             if let Some((moments, distance)) = it.whole {
-                let limits = &self.far[it.fixed.size][it.moving.size].limits;
+                let limits = &self.sizes[it.fixed.size][it.moving.size].limits;
                 return moments * limits.curvature(turn, distance);
             }
             let fixed = it.fixed.members.iter().map(|i| &self.fixed[*i]);
@@ -342,7 +324,7 @@ impl Potential for CuboidPotential {
     /// That of dipoles as far apart as the blocks' nearest points. Known only if all blocks are
     /// farther apart than their own size: closer, the second derivative's bound is tighter.
     fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        let radii = self.far.iter().flatten().map(|far| far.radii);
+        let radii = self.sizes.iter().flatten().map(|sizes| sizes.radii);
         let radii = radii.fold(0.0, f64::max);
         let terms = motion::fourth_derivative(self.lever.turn());
         self.dipoles

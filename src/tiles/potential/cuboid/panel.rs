@@ -2,9 +2,10 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::block::{Block, BlockPair, Faces, PairEnergy};
+use super::block::{Block, BlockPair, Faces};
 use super::quadrature::{Fineness, MOST, Panel, RULES, Rule, panels};
 use super::sheet::{potential, subtended};
+use crate::potential::far::PairEnergy;
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 

@@ -23,12 +23,13 @@ use std::sync::OnceLock;
 
 use nalgebra::{Complex, Vector2};
 
-use super::SizedBlock;
 use super::block::Block;
-use super::far::{Group, Sums};
 use super::quadrature::{FOUR, RULES, SIX};
 use super::sheet::potential;
+use super::{SizedBlock, member};
 use crate::configuration::Configuration;
+use crate::potential::far::group::Group;
+use crate::potential::far::terms::Sums;
 use crate::potential::groups::are_many;
 use crate::potential::patches::polynomial::{Charge, Interpolation, Polynomial, Sampled};
 use crate::potential::patches::square::{Rule, Source, distance};
@@ -116,7 +117,7 @@ impl Field {
         }
         let sources = (0..).zip(fixed.1).flat_map(|(number, group)| {
             (0..group.count).map(move |at| Fixed {
-                block: group.block(fixed.0, at),
+                block: member(group, fixed.0, at),
                 group: number,
                 at,
             })

@@ -10,7 +10,7 @@ use nalgebra::Complex;
 use super::{CLOSE, Left, NEAR, Pair, ROOM};
 use crate::cell::Quadratic;
 use crate::potential::bodies::Body;
-use crate::potential::cuboid::block::PairEnergy;
+use crate::potential::far::PairEnergy;
 use crate::tile::magnet::Shape;
 
 /// The error of the series, in value and in the change by its slopes over a cell, as a fraction of `mu0

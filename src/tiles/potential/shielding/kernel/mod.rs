@@ -11,7 +11,7 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 
 use super::Shield;
 use crate::configuration::Configuration;
-use crate::potential::cuboid::block::PairEnergy;
+use crate::potential::far::PairEnergy;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH, fill};
 use crate::tile::{self, Tile};
 use crate::units::MU0_OVER_4PI;

@@ -1,9 +1,15 @@
-//! The far form of a pair of blocks: the multipole series of their interaction.
+//! The multipole series of the energy of two magnets, blocks or discs, that both lie flat or both stand.
 //!
 //! Averaging point dipoles over a block of size L along its axis, W across it and c through the
 //! thickness is the operator `S = sinhc(L d_a / 2) sinhc(W d_t / 2) sinhc(c d_z / 2)`, with
 //! `sinhc(u) = sinh(u) / u = sum u^(2k) / (2k + 1)!` and `d_a`, `d_t`, `d_z` the derivatives along
-//! the three edges. Two blocks with moments m1, m2 hence have the energy
+//! the three edges. For a disc of radius R the two factors across its axis are
+//!
+//! ```text
+//! 2 I1(R s) / (R s) = sum (R / 2)^(2k) s^(2k) / (k! (k + 1)!),    s^2 = -d_a^2 (Laplace).
+//! ```
+//!
+//! Two magnets with moments m1, m2 hence have the energy
 //!
 //! ```text
 //! U = -mu0 m1 m2 / (4 pi)  S1 d_a1  S2 d_a2  (1 / r)         (J)
@@ -11,22 +17,22 @@
 //!
 //! In the plane z = 0, with `w = x + i y`, `P = d/dw` and `Q = d/d(conj w)`, the derivative along
 //! the direction alpha is `e^(i alpha) P + e^(-i alpha) Q`, the Laplace equation makes
-//! `d_z^2 = -4 P Q`, and
+//! `d_z^2 = -4 P Q` (which takes the place of `d_a1 d_a2` for two magnets that stand), and
 //!
 //! ```text
 //! P^M Q^N (1 / r) = (-1)^(M+N) (1/2)_M (1/2)_N r^(-1-M-N) e^(-i (M-N) phi)
 //! ```
 //!
 //! with rising factorials `(1/2)_M`. Collecting powers, with beta = alpha2 - alpha1 and phi
-//! measured from the first block's axis:
+//! measured from the first magnet's direction:
 //!
 //! ```text
 //! U = -mu0 m1 m2 / (4 pi)  sum_k r^(-3-2k) Re sum_l C_kl(beta) e^(-i l phi),   l = 0, 2 .. 2k+2
 //! C_kl(beta) = sum_l' T_kll' e^(i l' beta),                           l' = -2k-1, -2k+1 .. 2k+1
 //! ```
 //!
-//! Term k = 0 is the point dipole; term k falls like `r^(-3-2k)`. The numbers T depend on the two
-//! sizes alone. Their absolute sum over l and l', `A_k`, bounds term k at every angle, so the error
+//! (l' = -2k-2, -2k .. 2k+2 for magnets that stand.) Term k = 0 is the point dipole; term k falls like
+//! `r^(-3-2k)`. The numbers T depend on the two shapes and sizes alone. Their absolute sum over l and l', `A_k`, bounds term k at every angle, so the error
 //! of omitting terms is bounded by the A_k of the omitted terms.
 
 use std::ops::Range;
@@ -35,11 +41,8 @@ use nalgebra::Complex;
 
 use crate::potential::simd::lanes::{Lanes, WIDTH};
 
-/// Terms of the series that are summed, the dipole included.
-pub const TERMS: usize = 10;
-
-/// Terms of the series that enter the bound of the error.
-const BOUND_TERMS: usize = 16;
+/// The largest number of terms of a series that are summed, the dipole included.
+pub const MOST_TERMS: usize = 12;
 
 /// A homogeneous real polynomial in P and Q; entry m is the coefficient of P^m Q^(degree-m).
 pub type Form = Vec<f64>;
@@ -98,19 +101,6 @@ pub fn composed(parts: &[Vec<Form>], count: usize) -> Vec<Form> {
     forms
 }
 
-/// The terms of degree 1, 3, 5 .. of `S d_a`, in the block's own directions.
-fn block_forms(size: [f64; 3], count: usize) -> Vec<Form> {
-    let sides = squares().into_iter().zip(size);
-    let parts: Vec<_> = sides
-        .map(|(square, length)| along(&square, count, length))
-        .collect();
-    let forms = composed(&parts, count);
-    forms
-        .iter()
-        .map(|form| product(form, &[1.0, 1.0]))
-        .collect()
-}
-
 /// The rising factorial (1/2)_n.
 fn rising_half(n: usize) -> f64 {
     (0..n).map(|i| i as f64 + 0.5).product()
@@ -123,7 +113,7 @@ pub const fn index(k: usize, half: usize) -> usize {
 }
 
 /// Room for all C_kl, in whole vectors.
-pub const ROOM: usize = index(TERMS, 0).next_multiple_of(WIDTH);
+pub const ROOM: usize = index(MOST_TERMS, 0).next_multiple_of(WIDTH);
 
 /// C_kl at one angle beta.
 #[derive(Clone, Copy, Debug)]
@@ -153,7 +143,7 @@ impl Coefficients {
 const ORDERS: [f64; ROOM] = {
     let mut orders = [0.0; ROOM];
     let mut k = 0;
-    while k < TERMS {
+    while k < MOST_TERMS {
         let mut half = 0;
         while half < k + 2 {
             orders[index(k, half)] = (2 * half) as f64;
@@ -164,45 +154,52 @@ const ORDERS: [f64; ROOM] = {
     orders
 };
 
-/// The series of two block sizes.
+/// The series of two magnets.
 #[derive(Clone, Debug)]
 pub struct Multipole {
-    /// For l' = 1, 3 .. the sums and the differences of T_kll' and T_kl-l', of all C_kl.
-    sums: [[f64; ROOM]; TERMS],
-    differences: [[f64; ROOM]; TERMS],
+    /// How many terms can be summed.
+    pub terms: usize,
+    /// The least l' that is not negative: 1, or 0 if both stand.
+    least: usize,
+    /// For l' = 1, 3 .. or 0, 2 .. the sums and the differences of T_kll' and T_kl-l', of all C_kl.
+    sums: Vec<[f64; ROOM]>,
+    differences: Vec<[f64; ROOM]>,
     /// A_k (m^(2k)), longer than the coefficients.
     magnitudes: Vec<f64>,
 }
 
 impl Multipole {
-    pub fn new(first: [f64; 3], second: [f64; 3]) -> Self {
-        let (a, b) = (
-            block_forms(first, BOUND_TERMS),
-            block_forms(second, BOUND_TERMS),
-        );
-        let all: Vec<_> = (0..BOUND_TERMS).map(|k| term(&a, &b, k)).collect();
-        let by_order = |k: usize| (0..k + 2).map(move |n| (n..).step_by(k + 2).take(2 * k + 2));
+    /// The series with up to `terms` terms, of operators given by their parts of ascending degrees; all parts
+    /// enter the bound of the error.
+    pub fn new([first, second]: [&[Form]; 2], terms: usize) -> Self {
+        let all: Vec<_> = (0..first.len()).map(|k| term(first, second, k)).collect();
+        // The values of l' of term k.
+        let turns = |k: usize| second[k].len();
+        let by_order = |k: usize| (0..k + 2).map(move |n| (n..).step_by(k + 2).take(turns(k)));
         let magnitude = |(k, all): (usize, &Vec<f64>)| {
             let all = by_order(k).flatten().map(|at| all[at].abs());
             all.sum()
         };
         let magnitudes = all.iter().enumerate().map(magnitude).collect();
-        let (mut sums, mut differences) = ([[0.0; ROOM]; TERMS], [[0.0; ROOM]; TERMS]);
-        for (k, all) in all.iter().take(TERMS).enumerate() {
-            let turns = all.chunks(k + 2);
-            for (j, (plus, minus)) in turns
-                .clone()
-                .skip(k + 1)
-                .zip(turns.rev().skip(k + 1))
-                .enumerate()
-            {
+        let orders = turns(terms - 1).div_ceil(2);
+        let (mut sums, mut differences) = (vec![[0.0; ROOM]; orders], vec![[0.0; ROOM]; orders]);
+        for (k, all) in all.iter().take(terms).enumerate() {
+            let turns = turns(k);
+            for turn in 0..turns {
+                // l' and its magnitude's place.
+                let order = 2 * turn as isize + 1 - turns as isize;
+                let at = order.unsigned_abs() / 2;
+                let sign = if order < 0 { -1.0 } else { 1.0 };
                 for n in 0..k + 2 {
-                    sums[j][index(k, n)] = plus[n] + minus[n];
-                    differences[j][index(k, n)] = plus[n] - minus[n];
+                    let value = all[turn * (k + 2) + n];
+                    sums[at][index(k, n)] += value;
+                    differences[at][index(k, n)] += sign * value;
                 }
             }
         }
         Self {
+            terms,
+            least: (turns(0) + 1) % 2,
             sums,
             differences,
             magnitudes,
@@ -256,17 +253,22 @@ impl Multipole {
     ) {
         let step = turn * turn;
         // Coefficients of later terms in the last vector remain to be computed.
-        let mut turns = [turn; TERMS];
-        for j in 1..terms.end {
+        let mut turns = [turn; MOST_TERMS + 1];
+        if self.least == 0 {
+            turns[0] = Complex::new(1.0, 0.0);
+        }
+        // Term k has the orders up to k, or up to k + 1 if the least is 0.
+        let more = 1 - self.least;
+        for j in 1..terms.end + more {
             turns[j] = turns[j - 1] * step;
         }
         let mut i = index(terms.start, 0) / WIDTH * WIDTH;
-        // Term k has the orders up to k.
-        let mut orders = 1;
+        let mut last = 1;
         while i < index(terms.end, 0) {
-            while orders < TERMS && index(orders, 0) < i + WIDTH {
-                orders += 1;
+            while last < self.terms && index(last, 0) < i + WIDTH {
+                last += 1;
             }
+            let orders = last + more;
             let zero = l.splat(0.0);
             let (mut re, mut im) = (zero, zero);
             let (mut turn_re, mut turn_im) = (zero, zero);
@@ -277,7 +279,7 @@ impl Multipole {
                 re = l.mul_add(sum, cos, re);
                 im = l.mul_add(difference, sin, im);
                 if SLOPE {
-                    let order = l.splat((2 * j + 1) as f64);
+                    let order = l.splat((2 * j + self.least) as f64);
                     turn_re = l.neg_mul_add(l.mul(sum, order), sin, turn_re);
                     turn_im = l.mul_add(l.mul(difference, order), cos, turn_im);
                 }

@@ -1,13 +1,12 @@
-//! The far form of one moving block with several fixed blocks at once, with SIMD vectors.
+//! The series of one moving magnet with several fixed ones at once, with SIMD vectors.
 
-use nalgebra::{Complex, Vector2};
+use nalgebra::Complex;
 
-use super::SizedBlock;
-use super::block::Block;
-use super::multipole::{Coefficients, TERMS, index};
-use crate::potential::simd::lanes::{Lanes, fill};
+use super::group::Group;
+use super::multipole::{Coefficients, MOST_TERMS, index};
+use crate::potential::simd::lanes::Lanes;
 
-/// Sums over pairs of blocks, in units of `-mu0 / (4 pi)`.
+/// Sums over pairs of magnets, in units of `-mu0 / (4 pi)`.
 #[derive(Clone, Copy)]
 pub struct Sums<F> {
     pub energy: F,
@@ -49,22 +48,22 @@ impl<F: Copy> Sums<F> {
     }
 }
 
-/// Several fixed blocks and a moving one, in the frame whose x axis is the fixed blocks' axis.
+/// Several fixed magnets and a moving one, in the frame whose x axis is the fixed ones' direction.
 #[derive(Clone, Copy)]
 pub struct Pairs<F> {
     /// Products of the moments (A^2 m^4).
     pub moments: F,
-    /// Vector (m) from each fixed block to the moving one, its squared length, and the reciprocal
+    /// Vector (m) from each fixed magnet to the moving one, its squared length, and the reciprocal
     /// of its length (1/m); a pair for which this is 0 adds nothing.
     pub r: [F; 2],
     pub rr: F,
     pub inverse: F,
-    /// Vector (m) from the moving tile's reference point to the block.
+    /// Vector (m) from the moving tile's reference point to the magnet.
     pub arm: Complex<f64>,
 }
 
 impl<F: Copy> Pairs<F> {
-    /// The members of a group from `from` on, and a block at `place`.
+    /// The members of a group from `from` on, and a magnet at `place`.
     #[inline(always)]
     pub fn new<L: Lanes<F = F>>(
         l: L,
@@ -89,7 +88,7 @@ impl<F: Copy> Pairs<F> {
 }
 
 /// The possible numbers of terms, ascending.
-pub const STEPS: [usize; 7] = [2, 3, 4, 5, 6, 8, TERMS];
+pub const STEPS: [usize; 8] = [2, 3, 4, 5, 6, 8, 10, MOST_TERMS];
 
 /// Adds the first `terms` terms of the series, one of [`STEPS`], to the sums.
 #[inline(always)]
@@ -107,7 +106,8 @@ pub fn add_terms<L: Lanes, const SLOPE: bool>(
         5 => add::<L, 5, SLOPE>(l, c, pairs, sums),
         6 => add::<L, 6, SLOPE>(l, c, pairs, sums),
         8 => add::<L, 8, SLOPE>(l, c, pairs, sums),
-        _ => add::<L, TERMS, SLOPE>(l, c, pairs, sums),
+        10 => add::<L, 10, SLOPE>(l, c, pairs, sums),
+        _ => add::<L, MOST_TERMS, SLOPE>(l, c, pairs, sums),
     }
 }
 
@@ -131,7 +131,7 @@ fn add<L: Lanes, const N: usize, const SLOPE: bool>(
         l.mul(q, l.neg_mul_add(y, y, l.mul(x, x))),
         l.add(half, half),
     ];
-    let mut powers = [v; TERMS + 1];
+    let mut powers = [v; MOST_TERMS + 1];
     for n in 2..=N {
         powers[n] = l.complex_product(powers[n / 2], powers[n - n / 2]);
     }
@@ -184,7 +184,7 @@ fn polynomials<L: Lanes, const SLOPE: bool>(
     l: L,
     k: usize,
     c: &Coefficients,
-    powers: &[[L::F; 2]; TERMS + 1],
+    powers: &[[L::F; 2]; MOST_TERMS + 1],
 ) -> Polynomials<L::F> {
     let first = index(k, 0);
     let zero = l.splat(0.0);
@@ -212,93 +212,13 @@ fn real<L: Lanes>(l: L, v: [L::F; 2], re: f64, im: f64, sum: L::F) -> L::F {
     l.mul_add(l.splat(im), v[1], l.mul_add(l.splat(re), v[0], sum))
 }
 
-/// The weakness of padding blocks.
-const NO_MOMENT: f64 = 1e60;
-
-/// The distance (m) of padding blocks.
-const AWAY: f64 = 1e6;
-
-/// Fixed blocks of one size and one axis (up to its sign), as a structure of arrays padded to a
-/// multiple of the number of lanes with blocks without moment.
-#[derive(Clone, Debug)]
-pub struct Group {
-    /// The index of the size.
-    pub size: usize,
-    /// The axis of all of them.
-    pub axis: Complex<f64>,
-    /// Which of the tile's blocks they are.
-    pub members: Vec<usize>,
-    /// Their number, without the padding.
-    pub count: usize,
-    /// Places (m) in the frame whose x axis is the axis.
-    pub x: Vec<f64>,
-    pub y: Vec<f64>,
-    /// Moments (A m^2), negative where a block points against the axis.
-    pub moment: Vec<f64>,
-    /// Their magnitudes to the power -2/3; multiplied by the squared distance, this is smaller for
-    /// stronger pairs.
-    pub weakness: Vec<f64>,
-    /// The largest magnitude.
-    pub strongest: f64,
-}
-
-impl Group {
-    /// A group without blocks.
-    pub fn new(size: usize, axis: Vector2<f64>) -> Self {
-        Self {
-            size,
-            axis: Complex::new(axis.x, axis.y),
-            members: Vec::new(),
-            count: 0,
-            x: Vec::new(),
-            y: Vec::new(),
-            moment: Vec::new(),
-            weakness: Vec::new(),
-            strongest: 0.0,
-        }
-    }
-
-    /// Adds a block, pointing along the axis (sign 1) or against it (-1).
-    pub fn push(&mut self, member: usize, position: Vector2<f64>, moment: f64) {
-        self.members.push(member);
-        let place = Complex::new(position.x, position.y) * self.axis.conj();
-        self.count += 1;
-        self.x.push(place.re);
-        self.y.push(place.im);
-        self.moment.push(moment);
-        // For a block without moment, large enough to be far from all others.
-        let weakness = libm::pow(moment.abs(), -2.0 / 3.0);
-        self.weakness.push(weakness.min(NO_MOMENT));
-        self.strongest = self.strongest.max(moment.abs());
-    }
-
-    /// Block number `at` of the group, of the tile's blocks: with the group's axis and the moment
-    /// along it.
-    #[inline(always)]
-    pub fn block(&self, blocks: &[SizedBlock], at: usize) -> Block {
-        Block {
-            axis: Vector2::new(self.axis.re, self.axis.im),
-            moment: self.moment[at],
-            ..blocks[self.members[at]].block
-        }
-    }
-
-    /// Pads to whole vectors.
-    pub fn fill(&mut self) {
-        // Far from everything, so that padding never counts as near.
-        fill(&mut self.x, AWAY);
-        fill(&mut self.y, 0.0);
-        fill(&mut self.moment, 0.0);
-        fill(&mut self.weakness, NO_MOMENT);
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::block::PairEnergy;
+    use nalgebra::Vector2;
+
     use super::super::multipole::Multipole;
     use super::*;
-    use crate::potential::cuboid::cloud;
+    use crate::potential::cuboid::{Block, PairEnergy, cloud, series};
     use crate::potential::dipole;
     use crate::potential::simd::Level;
     use crate::potential::simd::lanes::Task;
@@ -339,7 +259,7 @@ mod tests {
     #[test]
     fn the_first_term_is_the_point_dipole() {
         let size = [0.01, 0.02, 0.03];
-        let series = Multipole::new(size, size);
+        let series = series(size, size);
         for level in Level::available() {
             let (first, second) = (
                 Block::placed([0.1, 0.2], 0.4, size),
@@ -359,7 +279,7 @@ mod tests {
 
     fn check<const N: usize>(tolerance: f64) {
         let (one, two) = ([0.010, 0.012, 0.003], [0.006, 0.008, 0.005]);
-        let series = Multipole::new(one, two);
+        let series = series(one, two);
         let radius = series.radius(N, tolerance);
         for i in 0..10 {
             let first = Block::placed([0.0, 0.0], 0.5, one);
@@ -381,8 +301,8 @@ mod tests {
 
     #[test]
     fn the_series_agrees_with_a_cloud_of_charges_within_its_bound() {
-        check::<TERMS>(1e-5);
-        check::<TERMS>(1e-9);
+        check::<10>(1e-5);
+        check::<10>(1e-9);
         check::<5>(1e-9);
         check::<3>(1e-9);
         check::<2>(1e-6);
