@@ -59,6 +59,14 @@ impl Proportion {
         }
     }
 
+    /// The same if `unknown` more of them may count or not: its interval holds either way.
+    pub fn at_least(count: usize, unknown: usize, of: usize) -> Self {
+        Self {
+            high: Self::new(count + unknown, of).high,
+            ..Self::new(count, of)
+        }
+    }
+
     /// `count / of`; 0 if `of` is 0.
     pub fn share(&self) -> f64 {
         if self.of == 0 {
@@ -365,4 +373,20 @@ pub enum PathwayCost {
     Work,
     /// -ln of the product of the transition probabilities.
     Probability,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two of ten that may count or not: the interval is that of the fewest and of the most.
+    #[test]
+    fn what_is_unknown_counts_either_way() {
+        let found = Proportion::at_least(3, 2, 10);
+        assert_eq!(found.share(), 0.3);
+        assert_eq!(found.low, Proportion::new(3, 10).low);
+        assert_eq!(found.high, Proportion::new(5, 10).high);
+        assert_eq!(Proportion::at_least(3, 0, 10), Proportion::new(3, 10));
+        assert_eq!(Proportion::at_least(0, 10, 10).high, 1.0);
+    }
 }

@@ -68,6 +68,7 @@ fn found(design: &Design, problem: &Problem, docking: &Docking, paths: Option<&P
         .fact("bound", "bond", docking.bound).noted("of all runs end in it")
         .fact("misbound", "traps", docking.trapped).noted("caught without a match")
         .fact("free", "free", docking.free).noted("neither")
+        .data("unsolved", docking.unsolved)
         .table(ends(docking))
         .table(traps(problem, docking))
         .data("time_to_bind_s", json!(times(docking)))
@@ -248,6 +249,15 @@ pub fn trajectory(snapshots: &[Snapshot]) -> Table {
 
 fn notes(docking: &Docking) -> Vec<String> {
     let mut notes = Vec::new();
+    if docking.unsolved > 0 {
+        notes.push(format!(
+            "{} of {} trajectories are unsolved: the impulses between the tiles are not found even in the \
+             shortest steps; the intervals of all shares hold however they end; use less friction or another \
+             seed",
+            docking.unsolved,
+            docking.runs.len(),
+        ));
+    }
     if let Some([least, middle, most]) = times(docking) {
         notes.push(format!(
             "time to bind: {least:.2} s to {most:.2} s, median {middle:.2} s"
@@ -315,6 +325,7 @@ fn name(docking: &Docking, run: &DockingRun) -> String {
     let end = match run.end {
         End::Bound { since } => format!("bound after {since:.2} s"),
         End::Free => "free".to_owned(),
+        End::Unsolved => "unsolved".to_owned(),
         End::Trapped { trap } => trap.and_then(|trap| docking.traps.get(trap)).map_or_else(
             || "caught".to_owned(),
             |trap| format!("caught above {}", si(trap.energy, "J", 3)),

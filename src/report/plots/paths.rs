@@ -88,6 +88,7 @@ pub fn ending(end: &End) -> &'static str {
         End::Bound { .. } => "bound",
         End::Trapped { .. } => "misbound",
         End::Free => "free",
+        End::Unsolved => "unsolved",
     }
 }
 
@@ -120,7 +121,7 @@ fn paths(canvas: &mut Canvas, view: &View, design: &Design, trajectories: &[Path
         let (colour, width) = match path.0.end {
             End::Bound { .. } => (GREEN, 2.4),
             End::Trapped { .. } => (INK, 1.4),
-            End::Free => (FAINT, 1.0),
+            End::Free | End::Unsolved => (FAINT, 1.0),
         };
         canvas.line(&points, colour, width);
         if let Some(first) = points.first() {

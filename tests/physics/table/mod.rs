@@ -477,7 +477,7 @@ fn two_tiles_dock_as_often_as_one_at_a_fixed_one() {
             let by_dock = match docked.end {
                 End::Bound { .. } => 0,
                 End::Trapped { .. } => 1,
-                End::Free => 2,
+                End::Free | End::Unsolved => 2,
             };
             counts[by_dock][0] += 1;
             counts[there][1] += 1;

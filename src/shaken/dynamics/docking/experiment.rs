@@ -68,16 +68,13 @@ impl<'a> Experiment<'a> {
 
     /// Simulates a trajectory to its end. `look` is called regularly, and at the end, with whether
     /// the tiles are matched.
-    ///
-    /// # Errors
-    /// If contact is not solved.
     pub fn watched(
         &self,
-        (index, start): (usize, &Motion),
+        start: &Motion,
         rng: &mut ChaCha8Rng,
         look: &mut dyn FnMut(&Snapshot, bool),
         is_over: &dyn Fn(&Configuration) -> bool,
-    ) -> Result<Run, DockingError> {
+    ) -> Run {
         let mut look = |now: &Snapshot| look(now, self.rule.holds(&now.motion.configuration));
         let mut steps = 0;
         let duration = self.settings.duration;
@@ -89,23 +86,21 @@ impl<'a> Experiment<'a> {
             is_over(&now.motion.configuration)
         });
         look(&run.last);
-        DockingError::unless_failed(index, run)
+        run
     }
 
     /// Simulates a trajectory.
-    ///
-    /// # Errors
-    /// If contact is not solved.
-    pub fn run(&self, index: usize) -> Result<Ended, DockingError> {
+    pub fn run(&self, index: usize) -> Ended {
         let (start, mut rng) = self.start(index);
         let mut since = None;
         let mut look = |now: &Snapshot, is_matched: bool| {
             since = is_matched.then(|| since.unwrap_or(now.time));
         };
-        let run = self.watched((index, &start.motion), &mut rng, &mut look, &|_| false)?;
+        let run = self.watched(&start.motion, &mut rng, &mut look, &|_| false);
         let caught = run.stop == Stop::Rest || run.last.total() < 0.0;
         let mut trap = None;
         let end = match since {
+            _ if run.stop == Stop::Failed => End::Unsolved,
             Some(since) => End::Bound { since },
             None if run.last.in_contact_range && caught => {
                 let last = &run.last.motion.configuration;
@@ -123,7 +118,7 @@ impl<'a> Experiment<'a> {
             free_steps: run.free_steps,
             contact_steps: run.contact_steps,
         };
-        Ok((run, trap))
+        (run, trap)
     }
 
     /// Counts the ends by trap.
@@ -149,21 +144,22 @@ impl<'a> Experiment<'a> {
                 runs[run].end = End::Trapped { trap: Some(trap) };
             }
         }
-        let count = |is: &dyn Fn(&End) -> bool| {
-            Proportion::new(runs.iter().filter(|run| is(&run.end)).count(), n)
-        };
+        let number = |is: &dyn Fn(&End) -> bool| runs.iter().filter(|run| is(&run.end)).count();
+        let unsolved = number(&|end| matches!(end, End::Unsolved));
+        let count = |is: &dyn Fn(&End) -> bool| Proportion::at_least(number(is), unsolved, n);
         Docking {
             settings: self.settings.clone(),
             threshold: self.rule.threshold,
             bound: count(&|end| matches!(end, End::Bound { .. })),
             trapped: count(&|end| matches!(end, End::Trapped { .. })),
             free: count(&|end| matches!(end, End::Free)),
+            unsolved,
             traps: places
                 .into_iter()
                 .map(|(configuration, energy, caught)| Trap {
                     configuration,
                     energy,
-                    caught: Proportion::new(caught.len(), n),
+                    caught: Proportion::at_least(caught.len(), unsolved, n),
                 })
                 .collect(),
             runs,

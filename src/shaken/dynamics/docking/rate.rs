@@ -36,7 +36,9 @@ impl OnRate {
     pub fn new(docking: &Docking) -> Self {
         Self::of_events(docking.runs.iter().map(|run| match run.end {
             End::Bound { since } => (since, true),
-            _ => (docking.settings.duration, false),
+            // Until then it has not attached.
+            End::Unsolved => (run.last.time, false),
+            End::Trapped { .. } | End::Free => (docking.settings.duration, false),
         }))
     }
 

@@ -45,9 +45,9 @@ pub fn releases(
             }
         };
         let is_far = |q: &Configuration| problem.space.is_far(q);
-        let run = experiment.watched((index, &start), &mut rng, &mut look, &is_far);
+        let run = experiment.watched(&start, &mut rng, &mut look, &is_far);
         done();
-        run.map(|_| Release {
+        DockingError::unless_failed(index, run).map(|_| Release {
             time: if left {
                 matched_last
             } else {

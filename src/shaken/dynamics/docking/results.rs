@@ -98,6 +98,9 @@ pub enum End {
     },
     /// Neither: not in contact, or still fast enough to come free.
     Free,
+    /// Unknown: at the time of the last snapshot the impulses of contact were not found even in the shortest
+    /// steps. Shares count it either way.
+    Unsolved,
 }
 
 /// One trajectory, in short.
@@ -151,10 +154,19 @@ pub struct Docking {
     pub trapped: Proportion,
     /// Share of other ends.
     pub free: Proportion,
+    /// Number of runs whose ends are unknown, see [`End::Unsolved`].
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub unsolved: usize,
     /// Traps, most frequent first.
     pub traps: Vec<Trap>,
     /// Wall time (s).
     pub wall_s: f64,
     /// Number of threads.
     pub threads: usize,
+}
+
+// In the form that serde requires.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_none(count: &usize) -> bool {
+    *count == 0
 }
