@@ -23,8 +23,9 @@
 //! surface may overlap others; no magnets can be there, and the energies of discs are not those of the
 //! overlapping faces.
 //!
-//! Beyond about three times the magnets' size the multipole series is used (`series`, [`super::far`]), with
-//! a bound of 1e-9 of each pair's `mu0 m1 m2 / (4 pi r^3)` for the omitted terms. For upright point dipoles it is the first term of this series, at every distance.
+//! Beyond about three times the magnets' size the multipole series is used (`series`, `far`), with a bound of
+//! 1e-9 of each pair's `mu0 m1 m2 / (4 pi r^3)` for the omitted terms. For upright point dipoles it is the
+//! first term of this series, at every distance.
 //!
 //! Bounds of derivatives are in `limits`; for those over whole cells see
 //! [`bounds`](super::bounds), which has the pairs one by one from `single`, and those of upright discs and

@@ -9,7 +9,7 @@
 //!   Gauss quadrature (`sheet`, `panel`, `quadrature`); the discontinuous parts of the gradient's
 //!   integrands are treated separately (`closed`).
 //! * Beyond about three block sizes, where closed forms lose digits, the multipole series is used
-//!   ([`far`](super::far)), with ten terms at first and down to two farther out. The bound of the
+//!   (`far`), with ten terms at first and down to two farther out. The bound of the
 //!   omitted terms decides: 1e-9 of `mu0 m1 m2 / (4 pi r^3)`, for the strongest pair if pairs are
 //!   summed.
 //!
