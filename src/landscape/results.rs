@@ -170,8 +170,8 @@ pub struct PathwayPoint {
 }
 
 /// A continuous free motion: from point to point it is straight in x, y and theta (the shorter way
-/// round), proved free to half a micrometre, and nowhere exceeds its highest point. The points are
-/// close enough for U to be nearly linear between them.
+/// round), proved free to half a micrometre of the paper's tile, and nowhere exceeds its highest point. The
+/// points are close enough for U to be nearly linear between them.
 pub type Pathway = Vec<PathwayPoint>;
 
 /// Mechanical work against the energy along a pathway, forwards and backwards (J): the sums of its

@@ -43,7 +43,7 @@ impl Subject {
         (
             Self::Clearances,
             "clearances",
-            "half a micrometre of overlap",
+            "an overlap of 1.65e-6 of the tile",
         ),
         (
             Self::Points,
