@@ -7,11 +7,9 @@ use super::{Alike, Body, BodyPotential, Pairs};
 use crate::configuration::Configuration;
 use crate::potential::far::PairEnergy;
 use crate::potential::far::group::Group;
-use crate::potential::far::multipole::Coefficients;
 use crate::potential::far::rows::{Facing, Lane};
-use crate::potential::far::terms::{self, Sums, add_terms};
 use crate::potential::simd::Level;
-use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
+use crate::potential::simd::lanes::{Lanes, Task};
 
 /// Two magnets that both lie or both stand.
 pub(in crate::potential) struct Single<'a> {
@@ -108,7 +106,7 @@ impl BodyPotential {
     }
 }
 
-/// The energies of all pairs of two groups by their series, which are wrong of those that are too close.
+/// The energies of all pairs of two groups, see [`Facing::for_each`].
 struct Far<'a> {
     facing: Facing<'a>,
     each: &'a mut dyn FnMut([usize; 2], &Lane),
@@ -119,37 +117,6 @@ impl Task for Far<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        let Facing {
-            form,
-            groups: [fixed, moving],
-            turn,
-            centre,
-        } = self.facing;
-        let mut coefficients = Coefficients::NONE;
-        let mut known = 0;
-        for j in 0..moving.count {
-            let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
-            for from in (0..fixed.x.len()).step_by(WIDTH) {
-                let mut pairs = terms::Pairs::new(l, fixed, from, place, moving.moment[j]);
-                // Those that are too close need not be right.
-                let is_far = l.sub(pairs.rr, l.splat(form.near()));
-                pairs.inverse = l.select(is_far, pairs.inverse, l.splat(0.0));
-                let least = l.least(l.select(is_far, pairs.rr, l.splat(f64::MAX)));
-                let terms = form.terms(&form.squares, least);
-                if known < terms {
-                    let known = known..terms;
-                    form.series
-                        .evaluate::<L, true>(l, turn, known, &mut coefficients);
-                }
-                known = known.max(terms);
-                let mut sums = Sums::zero(l);
-                add_terms::<L, true>(l, terms, &coefficients, &pairs, &mut sums);
-                let lanes = Lane::split(l, &sums, pairs.rr, fixed.axis);
-                let count = (fixed.count - from).min(WIDTH);
-                for (lane, found) in lanes[..count].iter().enumerate() {
-                    (self.each)([from + lane, j], found);
-                }
-            }
-        }
+        self.facing.for_each::<L, true>(l, self.each);
     }
 }

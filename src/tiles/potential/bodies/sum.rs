@@ -1,6 +1,6 @@
 //! The sum over all pairs of magnets at one configuration: far ones in vectors, near ones by their faces.
 
-use nalgebra::{Complex, Vector2, Vector3};
+use nalgebra::{Complex, Vector3};
 
 use super::near::exact;
 use super::{Alike, Body, BodyPotential, Pairs};
@@ -62,9 +62,8 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
     ) {
         let BodyPotential { fixed, moving, .. } = self.potential;
         let rotation = self.q.rotation();
-        let place = |at: usize, bodies: &[Body]| bodies[at].position;
-        let arm: Vector2<f64> = rotation * place(second.members.members[j], &moving.bodies);
-        let way = arm + self.q.position() - place(first.members.members[i], &fixed.bodies);
+        let arm = rotation * moving.bodies[second.members.members[j]].position;
+        let way = arm + self.q.position() - fixed.bodies[first.members.members[i]].position;
         let direction = rotation * second.like.direction;
         let found = match &pairs.nearby {
             Some(nearby) => nearby.at(first.like.direction, way, direction),

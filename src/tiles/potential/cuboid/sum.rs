@@ -9,10 +9,9 @@ use super::{CuboidPotential, member};
 use crate::configuration::Configuration;
 use crate::potential::far::PairEnergy;
 use crate::potential::far::group::Group;
-use crate::potential::far::multipole::Coefficients;
-use crate::potential::far::rows::{Facing, Known, Lane, Strongest};
-use crate::potential::far::terms::{Pairs, Sums, add_terms};
-use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
+use crate::potential::far::rows::{Known, Strongest};
+use crate::potential::far::terms::Sums;
+use crate::potential::simd::lanes::{Lanes, Task};
 use crate::units::MU0_OVER_4PI;
 
 /// The energy at a configuration, and its gradient if requested (otherwise zero).
@@ -203,38 +202,22 @@ impl<const SLOPE: bool> Task for Each<'_, SLOPE> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
         let (sin, cos) = libm::sincos(self.q.theta);
-        let mut coefficients = Coefficients::NONE;
-        for moving in &self.potential.moving_groups {
-            for fixed in &self.potential.fixed_groups {
-                let Facing {
-                    form, turn, centre, ..
-                } = self
-                    .potential
-                    .facing([fixed, moving], self.q, Complex::new(cos, sin));
-                form.series
-                    .evaluate::<L, SLOPE>(l, turn, 0..form.series.terms, &mut coefficients);
-                for (j, &second) in moving.members.iter().enumerate() {
-                    let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
-                    for from in (0..fixed.x.len()).step_by(WIDTH) {
-                        let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
-                        let mut sums = Sums::zero(l);
-                        let terms = form.terms(&form.squares, l.least(pairs.rr));
-                        add_terms::<L, SLOPE>(l, terms, &coefficients, &pairs, &mut sums);
-                        let lanes = fixed.members.len().min(from + WIDTH) - from;
-                        let out = Lane::split(l, &sums, pairs.rr, fixed.axis);
-                        for (&first, lane) in fixed.members[from..].iter().zip(&out[..lanes]) {
-                            let at = second * self.potential.fixed.len() + first;
-                            self.out[at] = if lane.square < form.near() {
-                                let moving = &self.potential.moving[second].block;
-                                let moved = moving.moved(cos, sin, self.q.position());
-                                let fixed = &self.potential.fixed[first].block;
-                                panel::near::<SLOPE>(self.potential.level, fixed, &moved)
-                            } else {
-                                lane.pair
-                            };
-                        }
-                    }
-                }
+        let potential = self.potential;
+        for moving in &potential.moving_groups {
+            for fixed in &potential.fixed_groups {
+                let facing = potential.facing([fixed, moving], self.q, Complex::new(cos, sin));
+                facing.for_each::<L, SLOPE>(l, |[i, j], lane| {
+                    let (first, second) = (fixed.members[i], moving.members[j]);
+                    self.out[second * potential.fixed.len() + first] =
+                        if lane.square < facing.form.near() {
+                            let moved = &potential.moving[second].block;
+                            let moved = moved.moved(cos, sin, self.q.position());
+                            let fixed = &potential.fixed[first].block;
+                            panel::near::<SLOPE>(potential.level, fixed, &moved)
+                        } else {
+                            lane.pair
+                        };
+                });
             }
         }
     }

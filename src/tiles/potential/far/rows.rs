@@ -207,6 +207,42 @@ impl Facing<'_> {
         }
         total.add::<L, SLOPE>(l, &sums, fixed.axis);
     }
+
+    /// Calls `each` with all pairs by their series and their indices in the groups. Those
+    /// [nearer](FarForm::near) than it reaches are wrong. Derivatives are zero unless requested.
+    #[inline(always)]
+    pub fn for_each<L: Lanes, const SLOPE: bool>(
+        &self,
+        l: L,
+        mut each: impl FnMut([usize; 2], &Lane),
+    ) {
+        let &Self {
+            form,
+            groups: [fixed, moving],
+            turn,
+            centre,
+        } = self;
+        let (mut coefficients, mut known) = (Coefficients::NONE, 0);
+        for j in 0..moving.count {
+            let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
+            for from in (0..fixed.x.len()).step_by(WIDTH) {
+                let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
+                let terms = form.terms(&form.squares, l.least(pairs.rr));
+                if known < terms {
+                    form.series
+                        .evaluate::<L, SLOPE>(l, turn, known..terms, &mut coefficients);
+                    known = terms;
+                }
+                let mut sums = Sums::zero(l);
+                add_terms::<L, SLOPE>(l, terms, &coefficients, &pairs, &mut sums);
+                let lanes = Lane::split(l, &sums, pairs.rr, fixed.axis);
+                let count = (fixed.count - from).min(WIDTH);
+                for (lane, found) in lanes[..count].iter().enumerate() {
+                    each([from + lane, j], found);
+                }
+            }
+        }
+    }
 }
 
 /// One of several pairs, and the square of its distance (m^2).
