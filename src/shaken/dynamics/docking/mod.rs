@@ -44,7 +44,8 @@ pub fn dock(
     Ok(experiment.docking(ended, clock.elapsed().as_secs_f64()))
 }
 
-/// The snapshots of one trajectory of an experiment, as far as it is solved, at most `interval` (s) apart in free flight.
+/// The snapshots of one trajectory of an experiment, as far as it is solved, at most `interval` (s) apart in
+/// free flight.
 ///
 /// # Errors
 /// As [`dock`].

@@ -155,7 +155,6 @@ pub struct Docking {
     /// Share of other ends.
     pub free: Proportion,
     /// Number of runs whose ends are unknown, see [`End::Unsolved`].
-    #[serde(default, skip_serializing_if = "is_none")]
     pub unsolved: usize,
     /// Traps, most frequent first.
     pub traps: Vec<Trap>,
@@ -163,10 +162,4 @@ pub struct Docking {
     pub wall_s: f64,
     /// Number of threads.
     pub threads: usize,
-}
-
-// In the form that serde requires.
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_none(count: &usize) -> bool {
-    *count == 0
 }
