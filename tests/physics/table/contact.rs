@@ -103,26 +103,51 @@ fn sliding_without_friction_keeps_energy() {
     assert!(worst < 2e-3 && drift < 1e-3, "{worst} {drift}");
 }
 
-/// Ten tiles without drives: their energy never rises, and contact never gives any.
+/// Nine tiles that fly and spin at random within a rim, without drives, looked at after each step: contact
+/// never gives energy, where it is elastic it takes none, and what it says it took is what is gone.
 #[test]
 fn energy_of_many_tiles_never_rises() {
     let (problem, crowd) = one_face(MagnetModel::Dipole);
-    for (seed, law) in [(1, [0.3, 0.01]), (2, [1.0, 0.5]), (3, [0.0, 0.0])] {
+    let depth = problem.depth();
+    let laws = [[0.3, 0.01], [1.0, 0.5], [0.0, 0.0], [0.0, 1.0], [0.3, 1.0]];
+    let mut missing = Vec::new();
+    for (seed, law) in (0..6).flat_map(|seed| laws.map(|law| (seed, law))) {
         let settings = TableSettings {
             walls: true,
             ..settings(6.0, law)
         };
-        let start = Start::Random(vec![5, 5]);
-        let found = run(&crowd, &settings, (seed, 0), &start, false).unwrap();
-        let totals = totals(&found);
-        for pair in totals.windows(2) {
+        let mut rng = stream(seed);
+        let movers = (0..9).map(|k| {
+            let [x, y] = [k % 3, k / 3].map(|it| 0.64 * (it as f64 - 1.0));
+            let angle = TAU * rng.random::<f64>();
+            let v = thermal_velocity(&crowd.kinds[k % 2].body, 3e-3, &mut rng);
+            mover(k % 2, [x, y, angle], v.into())
+        });
+        let mut stepper = Stepper::new(&crowd, &settings, movers.collect(), &stream);
+        let start = stepper.kinetic() + stepper.potential();
+        let (mut energy, mut lost, mut off) = (start, 0.0, 0.0);
+        for _ in 0..2400 {
+            stepper.step().unwrap();
+            let now = stepper.kinetic() + stepper.potential();
+            // In rare steps that the force of a pair is too strong for; what is missing then is made up for later.
+            assert!(now - energy < 1e-2 * depth, "{now} {energy} {law:?} {seed}");
+            let taken = stepper.account.contact_loss;
+            // Of second order in the step, where tiles slide without friction.
             assert!(
-                pair[1] - pair[0] < 2e-3 * problem.depth(),
-                "{pair:?} {law:?}"
+                taken - lost > -3e-5 * depth,
+                "{taken} {lost} {law:?} {seed}"
             );
+            (energy, lost) = (now, taken);
+            off = f64::max(off, (energy + lost - start).abs());
         }
-        assert!(found.energy_error < 0.01, "{}", found.energy_error);
+        let is_elastic = law == [0.0, 1.0];
+        assert_eq!(lost < 1e-9 * depth, is_elastic, "{lost} {law:?} {seed}");
+        missing.push(off / depth);
     }
+    missing.sort_by(f64::total_cmp);
+    println!("{missing:?}");
+    let [median, worst] = [missing[missing.len() / 2], missing[missing.len() - 1]];
+    assert!(median < 1e-6 && worst < 1e-2, "{missing:?}");
 }
 
 /// A design scaled by s, with masses and energies scaled by s^3 and times by s, moves in the same way.

@@ -93,3 +93,85 @@ fn tiles_moved_as_one_assemble_as_in_the_full_solution() {
         assert!(error < 0.25 * full[0].abs().max(1.0), "{error}");
     }
 }
+
+/// A bound pair of small squares in the field of a very strong and heavy third tile one metre away, which
+/// turns it round like a compass needle; and the force (N) of its bond.
+fn needle() -> (Crowd, Vec<Mover>, f64) {
+    let tiles = [square(0.04, "N", &[0]), square(0.04, "S", &[2])];
+    let mut strong = tiles[0].clone();
+    strong.mass = 1e9;
+    // Its field at the pair is so many times that of one magnet at the other, so that the pair is fast enough to
+    // open when it has nearly turned round, where it needs no friction.
+    strong.magnets[0].moment *= 3.0 * libm::pow(1.0 / BAR[0], 3.0);
+    let model = MagnetModel::Dipole;
+    let problem = problem(tiles.clone(), model, [4.0; 2]);
+    let [first, second] = tiles;
+    let kinds = [("first", first), ("second", second), ("strong", strong)];
+    let kinds: Vec<_> = kinds.map(|(name, tile)| Kind::new(name, tile)).into();
+    let rim = Rim::Rectangle([2.0; 2]);
+    let crowd = Crowd::new(
+        kinds,
+        rim,
+        1e-4 * problem.depth(),
+        &|_, _| of(model),
+        |_, _| vec![],
+    );
+    let crowd = crowd.unwrap();
+    let bound = Configuration::new(0.04, 0.0, 0.0);
+    let force = crowd
+        .couple(0, 1)
+        .0
+        .potential
+        .energy_and_gradient(&bound)
+        .1
+        .x;
+    let tilt = 0.1;
+    let at = |x: f64| [x * libm::cos(tilt), x * libm::sin(tilt), tilt];
+    let pair = [(0, -0.02000005), (1, 0.02000005)];
+    let mut movers = pair.map(|(kind, x)| mover(kind, at(x), [0.0; 3])).to_vec();
+    movers.push(mover(2, [-1.0, 0.0, TAU / 2.0], [0.0; 3]));
+    (crowd, movers, force)
+}
+
+/// The number of steps until the pair slides or opens, and its spin (rad/s) then.
+fn turns_until(crowd: &Crowd, movers: &[Mover], settings: &TableSettings) -> (usize, f64) {
+    let mut stepper = Stepper::new(crowd, settings, movers.to_vec(), &stream);
+    for step in 0.. {
+        stepper.step().unwrap();
+        let now = stepper.movers();
+        let between = (now[1].place - now[0].place).xy();
+        let (sin, cos) = libm::sincos(now[0].place.z);
+        let slid = between.dot(&Vector2::new(-sin, cos));
+        let apart = between.dot(&Vector2::new(cos, sin)) - 0.04;
+        if slid.abs() > 1e-6 || apart > 1e-6 {
+            return (step, now[0].velocity.z);
+        }
+        assert!(step < 2000, "{now:?}");
+    }
+    unreachable!()
+}
+
+/// With little friction a pair slides as the torque on it grows; with more it opens where its spin is too fast for
+/// its bond, `m w^2 r = F`. Until then it moves as one.
+#[test]
+fn a_pair_that_is_turned_faster_and_faster_slides_or_opens_as_in_the_full_solution() {
+    let (crowd, movers, force) = needle();
+    let fastest = libm::sqrt(force / (0.1 * 0.02));
+    let mut spins = Vec::new();
+    for friction in [0.2, 1.0] {
+        let settings = TableSettings {
+            step: 2.5e-4,
+            friction,
+            ..settings(1.0)
+        };
+        let [one, full] = [settings.clone(), in_full(&settings)]
+            .map(|settings| turns_until(&crowd, &movers, &settings));
+        assert!(one.0.abs_diff(full.0) <= 2, "{friction} {one:?} {full:?}");
+        assert!((one.1 / full.1 - 1.0).abs() < 5e-3, "{one:?} {full:?}");
+        spins.push(one.1 / fastest);
+    }
+    assert!(
+        spins[0] < 0.5 && (0.85..1.0).contains(&spins[1]),
+        "{spins:?}"
+    );
+}
