@@ -166,14 +166,6 @@ impl Hold {
         row(0) + row(1)
     }
 
-    /// The rate (m/s) along the normal that a unit impulse along it gives (1/kg).
-    pub fn yielding(&self, inverse: &[Vector3<f64>]) -> f64 {
-        let parts = self.parts(0);
-        parts
-            .map(|(tile, part)| part.component_mul(part).dot(&inverse[tile]))
-            .sum()
-    }
-
     /// Whether the tiles press on each other here.
     pub fn is_held(&self) -> bool {
         self.impulses[0] > 0.0

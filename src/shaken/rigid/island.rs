@@ -637,15 +637,20 @@ impl<W: World> Island<'_, W> {
         self.account.work += swung;
         let rubs = rests.iter().map(|it| it.impulse / (0.5 * h));
         next.rubs = rubs.collect();
-        // Where a point moves apart and comes back within the step, it is at rest for most of it: its impulse
-        // works at the mean velocity, and what it had is gone.
+        // Where a point moves apart and comes back within the step, the forces act at rest, and the
+        // mean velocities give them work that they do not do.
         let error = self.law(h)[1];
-        for hold in held.iter().filter(|it| it.is_held()) {
-            let rate = hold.rate(&state.velocities);
-            if rate > RETURNED * error {
-                let change = rate - hold.rate(&way);
-                lost += 0.5 * change * (hold.impulses[0] + change / hold.yielding(inverse));
-            }
+        let returns =
+            |hold: &Hold| hold.is_held() && hold.rate(&state.velocities) > RETURNED * error;
+        if held.iter().any(returns) {
+            let halves = [&*state, &next].map(|at| {
+                let each = at.velocities.iter().zip(&way).zip(&at.accelerations);
+                let works = each.zip(masses);
+                works
+                    .map(|(((v, way), a), mass)| mass.component_mul(a).dot(&(v - way)))
+                    .sum::<f64>()
+            });
+            lost -= 0.25 * h * (halves[0] + halves[1]);
         }
         // Not where tiles are shaken: the correction changes volumes in phase space, which makes bonds
         // rarer than in equilibrium, and the kicks level errors of energy anyway.
