@@ -247,17 +247,19 @@ pub fn trajectory(snapshots: &[Snapshot]) -> Table {
         .in_csv("trajectory")
 }
 
+/// The note on trajectories whose ends are unknown.
+pub(crate) fn unsolved(unsolved: usize, runs: usize) -> Option<String> {
+    (unsolved > 0).then(|| {
+        format!(
+            "{unsolved} of {runs} trajectories are unsolved: the impulses between the tiles are not found even \
+             in the shortest steps; all intervals hold however they end; use less friction or another seed"
+        )
+    })
+}
+
 fn notes(docking: &Docking) -> Vec<String> {
     let mut notes = Vec::new();
-    if docking.unsolved > 0 {
-        notes.push(format!(
-            "{} of {} trajectories are unsolved: the impulses between the tiles are not found even in the \
-             shortest steps; the intervals of all shares hold however they end; use less friction or another \
-             seed",
-            docking.unsolved,
-            docking.runs.len(),
-        ));
-    }
+    notes.extend(unsolved(docking.unsolved, docking.runs.len()));
     if let Some([least, middle, most]) = times(docking) {
         notes.push(format!(
             "time to bind: {least:.2} s to {most:.2} s, median {middle:.2} s"

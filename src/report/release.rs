@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::docking::{motion, rate};
+use super::docking::{motion, rate, unsolved};
 use crate::document::{Document, entries};
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;
@@ -25,7 +25,7 @@ pub fn document(
         [off.rate, off.interval[0], off.interval[1]].map(|it| plain(it, 3));
     let mut left: Vec<f64> = releases
         .iter()
-        .filter(|it| it.left)
+        .filter(|it| it.left == Some(true))
         .map(|it| it.time)
         .collect();
     let times = left.clone();
@@ -68,16 +68,16 @@ pub fn document(
             .in_view()
             .noted("of bound tiles, 95 %")
             .data("off_rate", rate("detachments", &off))
+            .data("unsolved", off.unsolved)
             .data(
                 "overdamped",
                 overdamped.as_ref().map_or(Value::Null, beside),
             )
             .data("times_s", times),
         pictures: vec![still_bound(&left, releases.len(), settings.duration).into()],
-        notes: overdamped
-            .as_ref()
-            .map(describe_beside)
+        notes: unsolved(off.unsolved, releases.len())
             .into_iter()
+            .chain(overdamped.as_ref().map(describe_beside))
             .collect(),
         origin: format!(
             "seed {}, {} magnets",

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use crate::chains;
 use crate::columns::{Unit, describe};
+use crate::docking::unsolved;
 use crate::document::{Document, Drawing, Entries, Table, entries, rows};
 use crate::figures::share as percent;
 use crate::files::{PAGE, REPORT};
@@ -48,6 +49,10 @@ pub fn document<'a>(design: &'a Design, request: &'a Request, found: &'a Yields)
     let without = found.without.iter().map(|(_, why)| why.to_string());
     let means = found.outcomes.iter().filter(|it| !it.exact).map(of_means);
     let uncounted = found.outcomes.iter().filter_map(uncounted);
+    let unsolved = found.outcomes.iter().filter_map(|it| {
+        let told = unsolved(it.attached.unsolved, it.attached.runs)?;
+        Some(format!("at kT = {} {told}", si(it.kt, "J", 3)))
+    });
     Document {
         title: format!("Yield of {}", design.name),
         answer: answer(design, request, found),
@@ -63,6 +68,7 @@ pub fn document<'a>(design: &'a Design, request: &'a Request, found: &'a Yields)
         pictures: pictures(request, found),
         notes: without
             .chain(uncounted)
+            .chain(unsolved)
             .chain(means)
             .chain(schedule)
             .chain([
@@ -227,6 +233,7 @@ fn by_kt(request: &Request, found: &Yields) -> Table {
         .column("mean_time_out_of_bond_at_least_s", "", "", known(|it| it.least_times.map(|it| it[1]))).in_json()
         .column("states", "", "", inner(states)).in_json()
         .column("attachments_elsewhere", "", "", |(_, at)| at.ok().map(|it| it.attached.elsewhere)).in_json()
+        .column("attachments_unsolved", "", "", |(_, at)| at.ok().map(|it| it.attached.unsolved)).in_json()
         .column("docked_s", "", "total duration of the docking runs", of(|it| it.attached.time)).in_json()
         .column("apart_s", "", "... for which the tiles were apart", of(|it| it.attached.apart)).in_json()
         .column("free_area_m2", "", "area of a pair that is apart, by which rates are multiplied", of(|it| it.attached.area)).in_json()

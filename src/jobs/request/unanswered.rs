@@ -37,10 +37,6 @@ impl Unanswered for ExitError {
     }
 }
 
-impl Unanswered for DockingError {
-    fn is_of_the_question(&self) -> bool {
-        !matches!(self, Self::Unsolved { .. })
-    }
-}
+impl Unanswered for DockingError {}
 
 impl Unanswered for SettingsError {}

@@ -139,6 +139,8 @@ pub struct Attachments {
     pub counts: Vec<usize>,
     /// Number of runs that ended at rest elsewhere.
     pub elsewhere: usize,
+    /// Number of runs whose ends are unknown: the impulses of contact were not found.
+    pub unsolved: usize,
     /// Total time (s) of all runs until attachment or their end.
     pub time: f64,
     /// ... for which their tiles were apart.
@@ -191,14 +193,15 @@ impl Attachments {
         self.solved.is_none() && self.counts[kind] == 0
     }
 
-    /// Its 95 % interval, that of a Poisson count; for solved rates, from the difference of meshes.
+    /// Its 95 % interval, that of a Poisson count, however unsolved runs end; for solved rates, from the
+    /// difference of meshes.
     pub fn interval(&self, kind: usize) -> [f64; 2] {
         match &self.solved {
             Some(solved) => {
                 let [rate, spread] = solved.on[kind];
                 [1.0 - spread, 1.0 + spread].map(|part| part.max(0.0) * rate * self.area)
             }
-            None => docking::poisson_interval(self.counts[kind])
+            None => docking::poisson_at_least(self.counts[kind], self.unsolved)
                 .map(|ends| ends * self.area / self.apart),
         }
     }
@@ -283,6 +286,7 @@ pub fn solve(
     Ok(Attachments {
         counts: vec![0; basins.len()],
         elsewhere: 0,
+        unsolved: 0,
         time: 0.0,
         apart: 0.0,
         area: volume / TAU,
@@ -327,6 +331,7 @@ fn tally(problem: &Problem, catalogue: &Catalogue, arrivals: &Arrivals) -> Attac
     let mut found = Attachments {
         counts: vec![0; kinds.len()],
         elsewhere: 0,
+        unsolved: 0,
         time: arrivals.runs.iter().map(|run| run.time).sum(),
         apart: arrivals.runs.iter().map(|run| run.apart).sum(),
         area: arrivals.area,
@@ -337,6 +342,10 @@ fn tally(problem: &Problem, catalogue: &Catalogue, arrivals: &Arrivals) -> Attac
         let kind = match caught {
             Caught::Bond => Some(0),
             Caught::Minimum(minimum) => minimum.and_then(kind_of),
+            Caught::Unsolved => {
+                found.unsolved += 1;
+                continue;
+            }
         };
         match kind {
             Some(kind) => found.counts[kind] += 1,

@@ -20,7 +20,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::experiment::{Experiment, minimum_below};
 use super::{DockingError, DockingSettings, stream};
-use crate::dynamics::{Body, Motion};
+use crate::dynamics::{Body, Motion, Stop};
 use crate::rigid::thermal_velocity;
 use landscape::minimum::Known;
 use tiles::configuration::Configuration;
@@ -51,6 +51,8 @@ pub enum Caught {
     /// At the end of the run the tile touches the other one unmatched and is too slow to come free:
     /// the minimum that overdamped motion reaches from there, if any.
     Minimum(Option<Configuration>),
+    /// Unknown: at the end of the run the impulses of contact were not found.
+    Unsolved,
 }
 
 /// The runs of an experiment.
@@ -90,7 +92,7 @@ pub fn arrivals(
     for repeat in 0..MOST_REPEATS {
         let first = repeat * settings.runs;
         let more = parallel::map(first..first + settings.runs, arrive);
-        runs.extend(more.into_iter().collect::<Result<Vec<_>, _>>()?);
+        runs.extend(more);
         let is_bound = |run: &&Arrival| run.caught == Some(Caught::Bond);
         if runs.iter().filter(is_bound).count() >= enough {
             break;
@@ -102,12 +104,7 @@ pub fn arrivals(
     })
 }
 
-fn arrive(
-    experiment: &Experiment,
-    starts: &Apart,
-    kt: f64,
-    index: usize,
-) -> Result<Arrival, DockingError> {
+fn arrive(experiment: &Experiment, starts: &Apart, kt: f64, index: usize) -> Arrival {
     let Experiment {
         problem,
         settings,
@@ -129,18 +126,18 @@ fn arrive(
         is_bound = now.total() < -ATTACHED_BELOW_KT * kt && rule.holds(&now.motion.configuration);
         is_bound
     });
-    let run = DockingError::unless_failed(index, run)?;
     let last = &run.last;
     let minimum = || minimum_below(problem, &last.motion.configuration, &Known::default());
     let caught = match is_bound {
+        _ if run.stop == Stop::Failed => Some(Caught::Unsolved),
         true => Some(Caught::Bond),
         false => (last.in_contact_range && last.total() < 0.0).then(|| Caught::Minimum(minimum())),
     };
-    Ok(Arrival {
+    Arrival {
         time: last.time,
         apart,
         caught,
-    })
+    }
 }
 
 fn is_apart(energy: f64, kt: f64) -> bool {

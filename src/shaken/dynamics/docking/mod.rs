@@ -13,7 +13,7 @@ pub use arrival::{Arrival, Arrivals, Caught, MOST_REPEATS, arrivals};
 use experiment::Experiment;
 pub(super) use experiment::{minimum_below, out_of_contact};
 pub use map::{DockingMap, MapCell};
-pub use rate::{OnRate, exponential_statistic, poisson_interval};
+pub use rate::{OnRate, exponential_statistic, poisson_at_least, poisson_interval};
 pub use release::{Release, off_rate, releases};
 pub use results::{Docking, DockingError, DockingRun, DockingSettings, End, Trap};
 pub use starts::{Start, Starts, stream};

@@ -19,8 +19,10 @@ pub struct OnRate {
     pub time: f64,
     /// Attachments per second.
     pub rate: f64,
-    /// Its 95 % interval, see [`poisson_interval`].
+    /// Its 95 % interval, see [`poisson_interval`]; it holds however unsolved trials end.
     pub interval: [f64; 2],
+    /// Number of trials whose ends are unknown.
+    pub unsolved: usize,
     /// Times between attachments (s).
     pub times: Vec<f64>,
     /// The Kolmogorov-Smirnov statistic for an exponential distribution with the mean found, `(D -
@@ -35,21 +37,22 @@ impl OnRate {
     /// The rate of an experiment's matches.
     pub fn new(docking: &Docking) -> Self {
         Self::of_events(docking.runs.iter().map(|run| match run.end {
-            End::Bound { since } => (since, true),
-            // Until then it has not attached.
-            End::Unsolved => (run.last.time, false),
-            End::Trapped { .. } | End::Free => (docking.settings.duration, false),
+            End::Bound { since } => (since, Some(true)),
+            End::Unsolved => (run.last.time, None),
+            End::Trapped { .. } | End::Free => (docking.settings.duration, Some(false)),
         }))
     }
 
     /// The rate of events in concatenated trials: each has a duration (s), and whether it ends with
-    /// an event.
-    pub fn of_events(trials: impl Iterator<Item = (f64, bool)>) -> Self {
+    /// an event, if this is known.
+    pub fn of_events(trials: impl Iterator<Item = (f64, Option<bool>)>) -> Self {
         let mut times = Vec::new();
+        let mut unsolved = 0;
         let (mut time, mut since) = (0.0, 0.0);
         for (duration, happens) in trials {
             time += duration;
-            if happens {
+            unsolved += usize::from(happens.is_none());
+            if happens == Some(true) {
                 times.push(time - since);
                 since = time;
             }
@@ -59,7 +62,8 @@ impl OnRate {
             attachments: times.len(),
             time,
             rate: per_time(times.len() as f64),
-            interval: poisson_interval(times.len()).map(per_time),
+            interval: poisson_at_least(times.len(), unsolved).map(per_time),
+            unsolved,
             statistic: exponential_statistic(&times),
             times,
         }
@@ -86,6 +90,14 @@ pub fn poisson_interval(count: usize) -> [f64; 2] {
         time.map_or(0.0, |time| to_digits(time.inverse_cdf(p), 6))
     };
     [quantile(count, TAIL), quantile(count + 1, 1.0 - TAIL)]
+}
+
+/// The same if `unknown` more events may have happened: the interval holds either way.
+pub fn poisson_at_least(count: usize, unknown: usize) -> [f64; 2] {
+    [
+        poisson_interval(count)[0],
+        poisson_interval(count + unknown)[1],
+    ]
 }
 
 /// The Kolmogorov-Smirnov statistic for an exponential distribution with the mean found, see
@@ -120,6 +132,18 @@ mod tests {
         assert!(exponential_statistic(&exponential) < OnRate::CRITICAL);
         assert!(exponential_statistic(&uniform) > 2.0 * OnRate::CRITICAL);
     }
+
+    /// Three trials of 2 s; the end of one, after 1 s, is unknown.
+    #[test]
+    fn unknown_ends_widen_the_interval_upwards() {
+        let trials = [(2.0, Some(true)), (1.0, None), (2.0, Some(false))];
+        let found = OnRate::of_events(trials.into_iter());
+        assert_eq!((found.attachments, found.unsolved), (1, 1));
+        assert_eq!((found.time, found.rate), (5.0, 0.2));
+        let [one, two] = [1, 2].map(poisson_interval);
+        assert_eq!(found.interval, [one[0] / 5.0, two[1] / 5.0]);
+    }
+
     /// Garwood's table.
     #[test]
     fn intervals_of_counts_are_exact() {

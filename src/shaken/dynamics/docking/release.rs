@@ -2,7 +2,7 @@
 
 use super::experiment::Experiment;
 use super::{DockingError, DockingSettings, OnRate, stream};
-use crate::dynamics::{Motion, Snapshot};
+use crate::dynamics::{Motion, Snapshot, Stop};
 use crate::rigid::thermal_velocity;
 use tiles::configuration::Configuration;
 use tiles::parallel;
@@ -13,8 +13,8 @@ use tiles::problem::Problem;
 pub struct Release {
     /// The time at which it left the bond for good (s), or the duration of the observation.
     pub time: f64,
-    /// Whether it left.
-    pub left: bool,
+    /// Whether it left; `None` where the impulses of contact were not found after this time.
+    pub left: Option<bool>,
 }
 
 /// Simulates bound tiles that are shaken, each starting in the bond with a thermal velocity, until
@@ -47,17 +47,14 @@ pub fn releases(
         let is_far = |q: &Configuration| problem.space.is_far(q);
         let run = experiment.watched(&start, &mut rng, &mut look, &is_far);
         done();
-        DockingError::unless_failed(index, run).map(|_| Release {
-            time: if left {
-                matched_last
-            } else {
-                settings.duration
-            },
-            left,
-        })
+        let (time, left) = match (run.stop, left) {
+            (Stop::Failed, _) => (run.last.time, None),
+            (_, true) => (matched_last, Some(true)),
+            (_, false) => (settings.duration, Some(false)),
+        };
+        Release { time, left }
     };
-    let releases = parallel::map(0..settings.runs, release);
-    releases.into_iter().collect()
+    Ok(parallel::map(0..settings.runs, release))
 }
 
 /// The detachment rate, with its interval and the test for exponential times: the runs are

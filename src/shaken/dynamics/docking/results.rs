@@ -2,7 +2,7 @@
 
 use super::NoMagnets;
 use super::starts::{Start, Starts};
-use crate::dynamics::{MotionSettings, Run, SettingsError, Snapshot, Stop};
+use crate::dynamics::{MotionSettings, SettingsError, Snapshot};
 use landscape::Proportion;
 use tiles::configuration::Configuration;
 use tiles::problem::NoRoom;
@@ -56,30 +56,6 @@ pub enum DockingError {
          enlarge `size` in [table], or choose a larger kT", si(*.0, "J", 4)
     )]
     NeverApart(f64),
-    /// The impulses of contact were not found.
-    #[error(
-        "trajectory {index}: at {time:.6} s the impulses between the tiles are not found even in the shortest \
-         steps: the run has failed; use less friction or another seed"
-    )]
-    Unsolved {
-        /// The trajectory's number, from 0.
-        index: usize,
-        /// The time (s).
-        time: f64,
-    },
-}
-
-impl DockingError {
-    /// The end of a trajectory, unless it failed.
-    pub(super) fn unless_failed(index: usize, run: Run) -> Result<Run, Self> {
-        match run.stop {
-            Stop::Failed => Err(Self::Unsolved {
-                index,
-                time: run.last.time,
-            }),
-            _ => Ok(run),
-        }
-    }
 }
 
 /// The outcome of one start.
