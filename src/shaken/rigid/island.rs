@@ -426,7 +426,8 @@ impl<W: World> Island<'_, W> {
         inverse: &[Vector3<f64>],
         mut longest: f64,
     ) -> Result<Way, Unsolved> {
-        let mut h = longest.min(self.time_to_travel(&state.velocities, &state.holds));
+        let now = self.time_to_travel(&state.velocities, &state.holds);
+        let mut h = longest.min(now);
         let Margins {
             skin,
             touched,
@@ -443,6 +444,10 @@ impl<W: World> Island<'_, W> {
         };
         let mut lasts: Points<bool> = state.holds.iter().zip(&slow).map(is_lasting).collect();
         let mut forces: Points<[f64; 2]> = state.holds.iter().map(|hold| hold.forces).collect();
+        // The longest step known to travel too little, the shortest known to travel too far, and the last one
+        // with its pace.
+        const UNKNOWN: [f64; 2] = [0.0, f64::INFINITY];
+        let (mut bounds, mut known) = (UNKNOWN, (0.0, 1.0 / now));
         for _ in 0..SEARCHES {
             let mut holds = Vec::new();
             for ((hold, forces), _) in state
@@ -467,10 +472,24 @@ impl<W: World> Island<'_, W> {
             }
             // By the velocity in the middle of the step: the step is then as long as the one back from
             // its end, and errors of energy do not add up.
-            let share = self.time_to_travel(&way, &state.holds) / h;
-            if share < 1.0 - TRAVEL_ERROR || (share > 1.0 + TRAVEL_ERROR && h < longest) {
-                h = (h * share).min(longest);
-                continue;
+            let pace = 1.0 / self.time_to_travel(&way, &state.holds);
+            let is_too_far = pace * h > 1.0 + TRAVEL_ERROR;
+            if is_too_far || (pace * h < 1.0 - TRAVEL_ERROR && h < longest) {
+                bounds[usize::from(is_too_far)] = h;
+                let [least, most] = bounds;
+                if least < most * (1.0 - TRAVEL_ERROR) {
+                    let next = time_at_pace(known, (h, pace)).min(longest);
+                    known = (h, pace);
+                    h = match least < next && next < most {
+                        true => next,
+                        false => 0.5 * (least + most.min(longest)),
+                    };
+                    continue;
+                }
+                if is_too_far && h > least {
+                    h = least;
+                    continue;
+                }
             }
             let mut first = h;
             let mut is_new = false;
@@ -502,6 +521,8 @@ impl<W: World> Island<'_, W> {
                 h = first;
                 longest = first;
             }
+            bounds = UNKNOWN;
+            known = (0.0, 1.0 / now);
         }
         Err(Unsolved)
     }
@@ -811,6 +832,16 @@ impl<W: World> Island<'_, W> {
             }
         }
     }
+}
+
+/// The time after which a way is done whose mean pace (1/s) depends on the time (s) linearly, by two
+/// values of it.
+fn time_at_pace((first, slow): (f64, f64), (second, fast): (f64, f64)) -> f64 {
+    let slope = (fast - slow) / (second - first);
+    let start = slow - slope * first;
+    // The smaller positive root of `slope h^2 + start h = 1`.
+    let time = 2.0 / (start + (start * start + 4.0 * slope).sqrt());
+    if time > 0.0 { time } else { 1.0 / fast }
 }
 
 /// A tile by its index: among those that move, then among those that stand still.
