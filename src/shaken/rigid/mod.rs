@@ -11,6 +11,7 @@ mod fan;
 mod hold;
 mod island;
 mod knock;
+mod limits;
 mod margins;
 mod motion;
 mod mover;
@@ -19,7 +20,9 @@ mod pair;
 mod rest;
 mod rim;
 mod short;
+mod step;
 mod together;
+mod way;
 
 pub use account::Account;
 pub use body::{Body, Motion, Phase, normal, thermal_velocity};
