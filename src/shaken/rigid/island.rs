@@ -16,13 +16,14 @@ use nalgebra::Vector3;
 use super::World;
 use super::account::Account;
 use super::fan::Winds;
-use super::hold::{Hold, hold_back};
+use super::hold::Hold;
 use super::margins::Margins;
 use super::motion::{Forces, State, Strength, Unsolved, fastest};
 use super::mover::{Mover, Rider};
 use super::near::NearPair;
 use super::pair::{Pose, Two};
 use super::short::Each;
+use super::solve::hold_back;
 
 /// A step is halved this often at most.
 const HALVINGS: i32 = 12;

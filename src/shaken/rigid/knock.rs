@@ -7,10 +7,11 @@
 use nalgebra::Vector3;
 
 use super::World;
-use super::hold::{Hold, hold_back, kinetic, share_within};
+use super::hold::{Hold, kinetic, share_within};
 use super::island::{Island, Masses};
 use super::motion::{State, Unsolved};
 use super::short::Each;
+use super::solve::hold_back;
 
 /// The impulses of a knock are searched for this often, each time from those of the last.
 const KNOCKS: usize = 8;

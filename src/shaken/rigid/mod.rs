@@ -3,10 +3,11 @@
 //! [`Island`] moves tiles that are near each other, step by step; the tiles, their forces and their
 //! outlines are those of a [`World`]. Tiles may stand still: one tile that moves against another that
 //! does not is the smallest case (`dynamics`), many tiles on a table are the largest (`table`).
-//! Collisions and resting contact are impulses that obey Coulomb's law (`hold`).
+//! Collisions and resting contact are impulses that obey Coulomb's law (`solve`).
 
 mod account;
 mod body;
+mod clusters;
 mod fan;
 mod hold;
 mod island;
@@ -20,6 +21,7 @@ mod pair;
 mod rest;
 mod rim;
 mod short;
+mod solve;
 mod step;
 mod together;
 mod way;

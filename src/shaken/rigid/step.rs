@@ -4,12 +4,13 @@ use nalgebra::{Vector2, Vector3};
 use ordered_float::OrderedFloat;
 
 use super::World;
-use super::hold::{Hold, hold_back, kinetic};
+use super::hold::{Hold, kinetic};
 use super::island::{Island, Masses};
 use super::motion::{State, Unsolved, Way, put_right, put_right_held};
 use super::near::Touch;
 use super::rest::{GRAVITY, Rest};
 use super::short::Each;
+use super::solve::hold_back;
 
 /// A step that ends in an overlap which was not foreseen is repeated with half the time, this often at
 /// most.

@@ -9,11 +9,12 @@
 use nalgebra::{Rotation2, Vector2, Vector3};
 
 use super::World;
-use super::hold::{Hold, hold_back, kinetic};
+use super::hold::{Hold, kinetic};
 use super::island::{Island, Masses};
 use super::motion::{Common, fastest};
 use super::near::at_rim;
 use super::short::Each;
+use super::solve::hold_back;
 
 /// Tiles rest relative to each other if their speeds differ by less than this many times the error of
 /// velocities.

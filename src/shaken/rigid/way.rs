@@ -3,12 +3,13 @@
 use nalgebra::Vector3;
 
 use super::World;
-use super::hold::{Hold, hold_back};
+use super::hold::Hold;
 use super::island::{Island, PRECISE};
 use super::margins::Margins;
 use super::motion::{State, Unsolved, Way, closes};
 use super::rest::Rest;
 use super::short::{Each, Points};
+use super::solve::hold_back;
 
 /// The relative error of the travel of touching tiles in a step.
 const TRAVEL_ERROR: f64 = 0.01;
