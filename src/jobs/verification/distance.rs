@@ -279,7 +279,7 @@ fn between(a: P, b: P) -> f64 {
     libm::hypot(a[0] - b[0], a[1] - b[1])
 }
 
-fn between_edges([p, q]: [P; 2], [r, s]: [P; 2]) -> f64 {
+pub(super) fn between_edges([p, q]: [P; 2], [r, s]: [P; 2]) -> f64 {
     if crossing(p, q, r, s).is_some() {
         return 0.0;
     }

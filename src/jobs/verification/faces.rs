@@ -2,6 +2,8 @@
 //! on edge on the tiles' mid-plane, the pole faces of magnets that lie; or that are parallel to it, those
 //! of magnets that stand.
 
+use std::sync::LazyLock;
+
 /// A face of a magnet.
 pub(super) struct Face {
     pub outline: Outline,
@@ -160,17 +162,35 @@ fn integral(s: f64, x: f64, d: f64) -> f64 {
     sum
 }
 
+/// Places from -1 to 1 and weights of Gauss's rule with this many points: the roots of a Legendre
+/// polynomial by Newton's steps.
+pub(super) fn gauss(count: usize) -> Vec<[f64; 2]> {
+    // The polynomial at x, and its derivative.
+    let legendre = |x: f64| {
+        let [mut one, mut before] = [x, 1.0];
+        for k in 2..=count {
+            let k = k as f64;
+            [one, before] = [((2.0 * k - 1.0) * x * one - (k - 1.0) * before) / k, one];
+        }
+        (one, count as f64 * (x * one - before) / (x * x - 1.0))
+    };
+    let root = |k: usize| {
+        let guess = std::f64::consts::PI * (k as f64 + 0.75) / (count as f64 + 0.5);
+        let x = (0..8).fold(libm::cos(guess), |x, _| {
+            let (value, slope) = legendre(x);
+            x - value / slope
+        });
+        [x, 2.0 / ((1.0 - x * x) * legendre(x).1.powi(2))]
+    };
+    (0..count).map(root).collect()
+}
+
 /// Gauss's eight points.
-pub(super) fn eight(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
-    const POINTS: [[f64; 2]; 4] = [
-        [0.183_434_642_495_649_8, 0.362_683_783_378_362],
-        [0.525_532_409_916_329, 0.313_706_645_877_887_3],
-        [0.796_666_477_413_626_7, 0.222_381_034_453_374_5],
-        [0.960_289_856_497_536_3, 0.101_228_536_290_376_3],
-    ];
+fn eight(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
+    static POINTS: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| gauss(8));
     let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
-    let at = |[x, weight]: [f64; 2]| weight * (f(middle - half * x) + f(middle + half * x));
-    half * POINTS.into_iter().map(at).sum::<f64>()
+    let at = |[x, weight]: &[f64; 2]| weight * f(middle + half * x);
+    half * POINTS.iter().map(at).sum::<f64>()
 }
 
 /// An integral from `a` to `b` by Kronrod's fifteen points, in halves until these and Gauss's seven among

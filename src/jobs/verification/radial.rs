@@ -84,7 +84,7 @@ fn energy(first: &[Face; 2], second: &[Face; 2], distance: f64) -> f64 {
     let of = |a: &Face, b: &Face| {
         let [a, b] = [at(a, 0.0), at(b, distance)];
         let size = a.area() * b.area() / (distance + 2.0 * (a.half[0] + b.half[0]));
-        a.charge * b.charge * stacks::integral(&a, &b, 1e-10 * size)
+        a.charge * b.charge * stacks::adaptive(&a, &b, 1e-10 * size)
     };
     2.0 * (of(&first[0], &second[0]) + of(&first[0], &second[1]))
 }

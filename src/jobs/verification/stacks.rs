@@ -5,7 +5,11 @@
 //! one of lines along x. Faces of different kinds are none of this module's: those that lie come in
 //! pairs of opposite charge, as far above the mid-plane as below, on which an upright one does not act.
 
-use super::faces::{Face, Outline, eight, halved};
+use std::f64::consts::FRAC_PI_2;
+use std::sync::LazyLock;
+
+use super::distance::between_edges;
+use super::faces::{Face, Outline, gauss, halved};
 
 /// Lines side by side.
 struct Stack {
@@ -98,6 +102,26 @@ impl Stack {
         (Line { at, low, high }, self.reach * cosine)
     }
 
+    /// Lines by a rule for each part whose ends are smooth, and their shares of the area.
+    fn lines(&self, rule: &[[f64; 2]]) -> Vec<(Line, f64)> {
+        let cuts = self.cuts(&[]);
+        let angles = cuts.windows(2).flat_map(|pair| {
+            let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+            let at = move |[x, weight]: &[f64; 2]| (middle + half * x, half * weight);
+            rule.iter().map(at)
+        });
+        let lines = angles.map(|(angle, share)| {
+            let (line, weight) = self.line(angle);
+            (line, share * weight)
+        });
+        lines.filter(|(line, _)| line.low < line.high).collect()
+    }
+
+    /// The places of its outer lines in the normal plane.
+    fn across(&self) -> [[f64; 2]; 2] {
+        [-1.0, 1.0].map(|sign| [0, 1].map(|k| self.base[k] + sign * self.reach * self.side[k]))
+    }
+
     /// The angle of the line that is nearest to a place in the normal plane.
     fn nearest(&self, at: [f64; 2]) -> f64 {
         let u = [0, 1].map(|k| (at[k] - self.base[k]) * self.side[k]);
@@ -110,8 +134,7 @@ impl Stack {
 
     /// Angles between which ends are smooth, and these more.
     fn cuts(&self, more: &[f64]) -> Vec<f64> {
-        let whole = std::f64::consts::FRAC_PI_2;
-        let mut cuts = vec![-whole, whole];
+        let mut cuts = vec![-FRAC_PI_2, FRAC_PI_2];
         if let Ends::Polygon(corners) = &self.ends {
             cuts.extend(corners.iter().map(|p| self.angle(p[1])));
         }
@@ -146,17 +169,43 @@ fn of_lines(a: &Line, b: &Line) -> f64 {
     g(a.high - b.low) - g(a.low - b.low) - g(a.high - b.high) + g(a.low - b.high)
 }
 
-/// The integral of 1 / r over two faces of one kind, with an error of about `allowed`; the faces far apart
-/// if any is.
+/// Numbers of fixed lines, and how far apart two stacks are, in reaches of the larger, so that these many
+/// leave less than 1e-7 of the integral.
+const LINES: [(usize, f64); 4] = [(8, 2.5), (16, 0.8), (24, 0.5), (32, 0.4)];
+
+static RULES: LazyLock<[Vec<[f64; 2]>; 4]> = LazyLock::new(|| LINES.map(|(count, _)| gauss(count)));
+
+/// The integral of 1 / r over two faces of one kind, with an error of about `allowed`, or 1e-7 of it.
 pub(super) fn integral(a: &Face, b: &Face, allowed: f64) -> f64 {
     let (first, second) = (Stack::of(a), Stack::of(b));
-    let whole = std::f64::consts::FRAC_PI_2;
-    let ends = [-whole, whole].map(|angle| first.nearest(second.line(angle).0.at));
-    let crossing = first.crossing(&second);
+    let apart = between_edges(first.across(), second.across()) / first.reach.max(second.reach);
+    match LINES.iter().position(|(_, least)| apart >= *least) {
+        Some(at) => by_rule(&first, &second, &RULES[at]),
+        None => in_halves(&first, &second, allowed),
+    }
+}
+
+/// The same in halves, however near they are.
+pub(super) fn adaptive(a: &Face, b: &Face, allowed: f64) -> f64 {
+    in_halves(&Stack::of(a), &Stack::of(b), allowed)
+}
+
+fn by_rule(first: &Stack, second: &Stack, rule: &[[f64; 2]]) -> f64 {
+    let [first, second] = [first, second].map(|stack| stack.lines(rule));
+    let over = |(line, weight): &(Line, f64)| {
+        let each = second
+            .iter()
+            .map(|(other, weight)| weight * of_lines(line, other));
+        weight * each.sum::<f64>()
+    };
+    first.iter().map(over).sum()
+}
+
+/// The same in halves, however near they are.
+fn in_halves(first: &Stack, second: &Stack, allowed: f64) -> f64 {
+    let ends = [-FRAC_PI_2, FRAC_PI_2].map(|angle| first.nearest(second.line(angle).0.at));
     // Where lines come close to each other, integrands bend sharply.
-    let is_near = allowed.is_finite();
-    let more = ends.into_iter().chain(crossing).filter(|_| is_near);
-    let more: Vec<f64> = more.collect();
+    let more: Vec<f64> = ends.into_iter().chain(first.crossing(second)).collect();
     let inner = |angle: f64| {
         let (line, weight) = first.line(angle);
         if line.high <= line.low {
@@ -166,10 +215,7 @@ pub(super) fn integral(a: &Face, b: &Face, allowed: f64) -> f64 {
             let (other, weight) = second.line(angle);
             weight * of_lines(&line, &other)
         };
-        let cuts = match is_near {
-            true => second.cuts(&[second.nearest(line.at)]),
-            false => second.cuts(&[]),
-        };
+        let cuts = second.cuts(&[second.nearest(line.at)]);
         weight * total(&over, &cuts, allowed / (4.0 * first.reach))
     };
     total(&inner, &first.cuts(&more), allowed)
@@ -177,8 +223,5 @@ pub(super) fn integral(a: &Face, b: &Face, allowed: f64) -> f64 {
 
 fn total(f: &impl Fn(f64) -> f64, cuts: &[f64], allowed: f64) -> f64 {
     let parts = cuts.windows(2).map(|pair| [pair[0], pair[1]]);
-    match allowed.is_finite() {
-        true => parts.map(|part| halved(f, part, allowed, 20)).sum(),
-        false => parts.map(|[a, b]| eight(f, a, b)).sum(),
-    }
+    parts.map(|part| halved(f, part, allowed, 20)).sum()
 }
