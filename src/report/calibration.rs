@@ -127,8 +127,13 @@ fn strength_answer(design: &Design, found: &StrengthFit) -> String {
         let ends = needed.iter().min_by(|a, b| a.1.total_cmp(&b.1));
         let ends = ends.zip(needed.iter().max_by(|a, b| a.1.total_cmp(&b.1)));
         let ends = ends.map_or(String::new(), |(low, high)| {
-            let at_gap =
-                |(gap, remanence): &(f64, f64)| format!("{remanence:.2} T at {}", si(*gap, "m", 2));
+            let at_gap = |(gap, remanence): &(f64, f64)| {
+                let place = match *gap > 0.0 {
+                    true => format!("at {}", si(*gap, "m", 2)),
+                    false => "at contact".to_owned(),
+                };
+                format!("{remanence:.2} T {place}")
+            };
             format!(": the readings need {} and {}", at_gap(low), at_gap(high))
         });
         let best = format!(
