@@ -6,8 +6,7 @@ use super::near::exact;
 use super::{Alike, Body, BodyPotential, Pairs};
 use crate::configuration::Configuration;
 use crate::potential::far::PairEnergy;
-use crate::potential::far::group::Group;
-use crate::potential::far::rows::{Facing, Lane};
+use crate::potential::far::rows::{Facing, Lane, Several};
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task};
 
@@ -28,40 +27,23 @@ impl Single<'_> {
         self.far.unwrap_or_else(|| exact(&self.first, &self.second))
     }
 
-    /// The energy with the second magnet moved (m) and turned about its centre (rad).
-    pub fn moved(&self, way: Vector2<f64>, turn: f64) -> PairEnergy {
+    /// The energies with the second magnet moved in several ways (m), and turned about its centre (rad).
+    pub fn moved<const N: usize>(&self, ways: [Vector2<f64>; N], turn: f64) -> [PairEnergy; N] {
         let (sin, cos) = libm::sincos(turn);
-        let direction = self.second.direction;
-        let second = Body {
-            position: self.second.position + way,
-            direction: Vector2::new(
-                cos * direction.x - sin * direction.y,
-                sin * direction.x + cos * direction.y,
-            ),
-            ..self.second
-        };
-        let way = second.position - self.first.position;
-        if way.norm_squared() < self.pairs.far.near() {
-            return exact(&self.first, &second);
+        let turned = self.second.moved([cos, sin], Vector2::zeros());
+        let places = ways.map(|way| self.second.position + way);
+        let ways = places.map(|place| place - self.first.position);
+        let far = &self.pairs.far;
+        if ways.iter().all(|way| way.norm_squared() >= far.near()) {
+            let complex = |v: Vector2<f64>| Complex::new(v.x, v.y);
+            return Level::best().run(Several {
+                form: far,
+                axes: [self.first.direction, turned.direction].map(complex),
+                moments: self.first.moment * self.second.moment,
+                ways: ways.map(complex),
+            });
         }
-        let group = |body: &Body| {
-            let mut group = Group::new(0, body.direction);
-            group.push(0, body.position, body.moment);
-            group
-        };
-        let (mut fixed, moving) = (group(&self.first), group(&second));
-        fixed.fill();
-        let mut found = PairEnergy::default();
-        Level::best().run(Far {
-            facing: Facing::new(
-                &self.pairs.far,
-                [&fixed, &moving],
-                &Configuration::new(0.0, 0.0, 0.0),
-                Complex::new(1.0, 0.0),
-            ),
-            each: &mut |_, lane| found = lane.pair,
-        });
-        found
+        places.map(|position| exact(&self.first, &Body { position, ..turned }))
     }
 }
 

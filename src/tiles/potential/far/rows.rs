@@ -9,7 +9,7 @@ use super::multipole::Coefficients;
 use super::terms::{Pairs, STEPS, Sums, add_terms};
 use super::{FarForm, PairEnergy};
 use crate::configuration::Configuration;
-use crate::potential::simd::lanes::{Lanes, WIDTH};
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// Two groups at a configuration, in the frame whose x axis is the direction of the fixed ones.
@@ -242,6 +242,41 @@ impl Facing<'_> {
                 }
             }
         }
+    }
+}
+
+/// Two magnets by their series, the second at several places.
+pub struct Several<'a, const N: usize> {
+    pub form: &'a FarForm,
+    /// Their directions.
+    pub axes: [Complex<f64>; 2],
+    /// The product of their moments (A^2 m^4).
+    pub moments: f64,
+    /// From the first to the second (m); no more than there are lanes.
+    pub ways: [Complex<f64>; N],
+}
+
+impl<const N: usize> Task for Several<'_, N> {
+    type Output = [PairEnergy; N];
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> Self::Output {
+        let into = self.axes[0].conj();
+        let mut places = [[0.0; WIDTH]; 2];
+        for lane in 0..WIDTH {
+            let way = self.ways[lane.min(N - 1)] * into;
+            (places[0][lane], places[1][lane]) = (way.re, way.im);
+        }
+        let pairs = Pairs::between(l, places.map(|all| l.load(&all)), l.splat(self.moments));
+        let terms = self.form.terms(&self.form.squares, l.least(pairs.rr));
+        let mut coefficients = Coefficients::NONE;
+        let turn = self.axes[1] * into;
+        let series = &self.form.series;
+        series.evaluate::<L, true>(l, turn, 0..terms, &mut coefficients);
+        let mut sums = Sums::zero(l);
+        add_terms::<L, true>(l, terms, &coefficients, &pairs, &mut sums);
+        let lanes = Lane::split(l, &sums, pairs.rr, self.axes[0]);
+        std::array::from_fn(|lane| lanes[lane].pair)
     }
 }
 

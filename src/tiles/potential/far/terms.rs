@@ -76,9 +76,16 @@ impl<F: Copy> Pairs<F> {
             l.sub(l.splat(place.re), l.load(&fixed.x[from..])),
             l.sub(l.splat(place.im), l.load(&fixed.y[from..])),
         ];
+        let moments = l.mul(l.splat(moment), l.load(&fixed.moment[from..]));
+        Self::between(l, r, moments)
+    }
+
+    /// Magnets with these vectors between them.
+    #[inline(always)]
+    pub fn between<L: Lanes<F = F>>(l: L, r: [F; 2], moments: F) -> Self {
         let rr = l.mul_add(r[0], r[0], l.mul(r[1], r[1]));
         Self {
-            moments: l.mul(l.splat(moment), l.load(&fixed.moment[from..])),
+            moments,
             r,
             rr,
             inverse: l.reciprocal_sqrt(rr),

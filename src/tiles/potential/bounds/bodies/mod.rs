@@ -50,8 +50,8 @@ use faces::{Face, distances, sides};
 /// Pairs are far beyond this many times the sum of their half diagonals, and the magnet's reach.
 const CLOSE: f64 = 3.0;
 const NEAR: f64 = 4.0;
-/// The step of differences, as a share of the reach.
-const STEP: f64 = 1.0 / 16.0;
+/// The largest and the smallest step of differences, as a share of the reach.
+const STEPS: [f64; 2] = [1.0 / 16.0, 1.0 / 16384.0];
 /// A form of second order takes four times as long as one of first order; it is used if its remainder is
 /// this much smaller.
 const WORTH: f64 = 0.6;
@@ -255,18 +255,22 @@ impl Pair<'_> {
         };
         let error = (EXACT * most + lost * touching) * (1.0 + 4.0 * v / radius);
 
-        let h = STEP * v;
+        let [most_step, least_step] = STEPS;
         let aside = |aside: f64| {
             let on_the_way = (aside - v).max((aside + self.depths - v) / 2.0);
-            on_the_way.min(aside - h)
+            on_the_way.min(aside - most_step * v)
         };
         let [k1, k2, k3] = self.limits(aside);
         let arc = k1 * lever * w * w * w / 6.0;
         let third = (k3 * v * v * v + 3.0 * k2 * v * lever * w * w) / 6.0 + arc;
         let third = apart.map_or(third, |apart| third.min(apart.remainder));
+        // Longer steps err by their third derivatives, shorter ones by the errors of slopes: the best are where both
+        // are equal.
         let unit = k3 + 3.0 * k2 / radius + k1 / (radius * radius);
-        let differences = 0.5 * h * unit * v * v;
-        let second_order = third + differences + 2.0 * slopes * k1 * v / STEP + error;
+        let [by_length, by_error] = [0.5 * unit * v * v * v, 2.0 * slopes * k1 * v];
+        let step = (by_error / by_length).sqrt().clamp(least_step, most_step);
+        let differences = by_length * step + by_error / step;
+        let second_order = third + differences + error;
         let bent = 0.5 * (k2 * v * v + k1 * radius * w * w);
         let first_order = bent + arc + error;
         let steepest = apart.map_or(k1 * v, |apart| apart.slope.min(k1 * v));
@@ -280,7 +284,7 @@ impl Pair<'_> {
         let still = self.single.still();
         if second_order < WORTH * first_order.min(value) && v > 0.0 {
             out.work += 4 * AN_ENERGY;
-            let form = self.second_order(&still, h);
+            let form = self.second_order(&still, step * v);
             out.form = out.form.minus(-1.0, &form);
             return Left {
                 spread: second_order,
@@ -339,20 +343,20 @@ impl Pair<'_> {
             all.into_iter().fold(f64::INFINITY, f64::min)
         };
         let best = ways.max_by(|a, b| nearest(a).total_cmp(&nearest(b)));
-        self.single.moved(best.unwrap_or_default() * by, 0.0)
+        let [moved] = self.single.moved([best.unwrap_or_default() * by], 0.0);
+        moved
     }
 
     /// The form of second order, with differences over a step (m).
     fn second_order(&self, still: &PairEnergy, h: f64) -> Quadratic {
         let turn = h / self.single.second.radius();
-        let by = |way: [f64; 2], turn: f64, step: f64| {
-            let there = self.single.moved(way.into(), turn);
+        let change = |there: &PairEnergy, step: f64| {
             let change = (there.gradient - still.gradient) / step;
             [change.x, change.y, (there.slope - still.slope) / step]
         };
-        let x = by([h, 0.0], 0.0, h);
-        let y = by([0.0, h], 0.0, h);
-        let t = by([0.0, 0.0], turn, turn);
+        let [x, y] = self.single.moved([Vector2::x() * h, Vector2::y() * h], 0.0);
+        let [t] = self.single.moved([Vector2::zeros()], turn);
+        let [x, y, t] = [change(&x, h), change(&y, h), change(&t, turn)];
         let mean = |a: f64, b: f64| (a + b) / 2.0;
         self.in_cell(
             still,
