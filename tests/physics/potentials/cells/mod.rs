@@ -228,7 +228,7 @@ fn all() -> Vec<Enclosed> {
             [0.46, 0.013, 0.1],
             [1.0, 1.0, 2.0],
             // Of second order but for what values and slopes lose, which smaller cells show.
-            [4e-4, 8e-5],
+            [2e-3, 4e-4],
             [8.0, 200.0],
         )],
         ..standing("", MagnetModel::Cuboid, 0.001, false)

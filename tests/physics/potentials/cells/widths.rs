@@ -6,12 +6,13 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::cell::Cell;
-use tilebind::potential::CellBounds;
 use tilebind::potential::bounds::{CuboidBounds, DipoleBounds, ShieldedBounds};
 use tilebind::potential::shielding::{Shield, Shields};
 use tilebind::potential::simd::Level;
+use tilebind::potential::{CellBounds, MagnetModel};
 
-use super::super::kinds::paper_tile;
+use super::super::kinds::{mixed_bounds, paper_tile};
+use super::{LYING_DISC, tile_of};
 use crate::designs;
 
 /// Mean of the logarithm of the widths (J) over cells about contact that have bounds, and how many
@@ -57,6 +58,8 @@ fn enclosures_are_as_wide_as_they_were() {
     let dipoles = DipoleBounds::with_level(&a, &b, level);
     let blocks = CuboidBounds::with_level(&a, &b, level);
     let shielded = ShieldedBounds::with_level(&small.fixed, &small.moving, &shields, level);
+    let [c, d] = ["NNNS", "NSSS"].map(|code| tile_of(code, 0.0005, &[LYING_DISC]));
+    let discs = mixed_bounds(MagnetModel::Cuboid)([&c, &d], &Shields::default(), level);
     for (name, bounds, half_side, smallest, expected) in [
         (
             "dipoles",
@@ -67,6 +70,7 @@ fn enclosures_are_as_wide_as_they_were() {
         ),
         ("blocks", &blocks, 0.215, -6.0, (-12.327661205, 400)),
         ("shielded", &shielded, 0.04, -5.0, (-15.650531646, 400)),
+        ("discs", &*discs, 0.215, -6.0, (-13.197356402, 400)),
     ] {
         let (mean, count) = mean_width(bounds, half_side, smallest);
         assert!(
