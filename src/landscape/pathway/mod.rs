@@ -114,10 +114,38 @@ pub fn along(network: &Network, route: &Route, limits: Option<&Limits>, bend: f6
         let repeated = usize::from(!all.is_empty() && ends[0] == ends[1]);
         all.extend(points.into_iter().skip(repeated));
     }
+    extend_to_ends(network, route, &mut all);
     if let Some(limits) = limits {
         all = bypassed(problem, all, limits);
     }
     of_milestones(problem, &all, bend)
+}
+
+/// Adds the nodes at a route's ends where ways end beside them: descents into a minimum end somewhere
+/// near it if it is flat.
+fn extend_to_ends(network: &Network, route: &Route, all: &mut Vec<Point>) {
+    let problem = network.problem;
+    let [Some(first), Some(last)] = [route.first(), route.last()] else {
+        return;
+    };
+    let [[start, _], [_, end]] = [first, last].map(|link| ends(network, *link));
+    let beside = |node: usize, point: Option<&Point>| {
+        let (q, _) = network.nodes[node]?;
+        let far = SAME * problem.space.rho;
+        let is_apart = problem.space.distance(&q, &point?.q) > far;
+        is_apart.then(|| Point::new(problem, q))
+    };
+    if let Some(start) = beside(start, all.first()) {
+        all.insert(0, start);
+    }
+    all.extend(beside(end, all.last()));
+}
+
+/// The nodes from which and to which a link of a route leads.
+fn ends(network: &Network, (number, forwards): (usize, bool)) -> [usize; 2] {
+    let link = &network.links[number];
+    let [from, to] = [link.from as usize, link.to as usize];
+    if forwards { [from, to] } else { [to, from] }
 }
 
 enum Stretch {
@@ -130,11 +158,6 @@ enum Stretch {
 fn stretches(network: &Network, route: &Route) -> Vec<Stretch> {
     let mut all: Vec<Stretch> = Vec::new();
     for &(number, forwards) in route {
-        let link = &network.links[number];
-        let mut ends = [link.from, link.to];
-        if !forwards {
-            ends.reverse();
-        }
         match network.way(number) {
             Some(points) => {
                 let mut way = points.to_vec();
@@ -144,7 +167,8 @@ fn stretches(network: &Network, route: &Route) -> Vec<Stretch> {
                 all.push(Stretch::Way(way));
             }
             None => {
-                let ends = ends.map(|node| network.nodes[node as usize].map(|n| n.0));
+                let ends = ends(network, (number, forwards));
+                let ends = ends.map(|node| network.nodes[node].map(|n| n.0));
                 let [Some(a), Some(b)] = ends else { continue };
                 match all.last_mut() {
                     Some(Stretch::Straight(points)) => points.push(b),
