@@ -37,8 +37,8 @@ pub(super) struct Magnets {
 /// and of a metre: poses in files have ten digits.
 const EQUAL: f64 = 1e-9;
 
-/// Discs overlap if they do by more than this (m), which rounding leaves where they touch.
-const OVERLAP: f64 = 1e-9;
+/// What rounding leaves (m) where discs touch.
+pub(super) const TOUCH: f64 = 1e-9;
 
 /// Moment (A m^2) and sizes (m) of a disc that stands.
 type Disc = [f64; 3];
@@ -350,10 +350,10 @@ impl Magnets {
         self.model
     }
 
-    /// Whether discs overlap each other or other magnets at a pose, as those that break through a surface
-    /// may: a disc's axis at imaginary heights, by which analyses compute its energy, does not stand for
+    /// Whether discs overlap each other or other magnets at a pose by more than a length (m), as those that
+    /// break through a surface may: a disc's axis at imaginary heights, by which analyses compute its energy, does not stand for
     /// it there. Magnets that are there cannot be.
-    pub fn overlap(&self, pose: Pose) -> bool {
+    pub fn overlap(&self, pose: Pose, by: f64) -> bool {
         if self.model == Model::Dipoles {
             return false;
         }
@@ -366,9 +366,9 @@ impl Magnets {
                 let [x, y] = target.position;
                 let apart = libm::hypot(place[0] - x, place[1] - y);
                 acts && both.contains(&Outline::Disc)
-                    && apart < reach - OVERLAP
+                    && apart < reach - by
                     && (kinds(target, source).is_some()
-                        || clearance(&target.rim, &source.rim, pose) < -OVERLAP)
+                        || clearance(&target.rim, &source.rim, pose) < -by)
             })
         })
     }

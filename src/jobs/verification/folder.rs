@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::checks::{Book, Subject};
 use super::distance::{self, Rim, clearance};
-use super::energy::{Magnets, Model, Motion};
+use super::energy::{Magnets, Model, Motion, TOUCH};
 use super::given::{Barrier, Given, Place, Point, Pose, Report, Share, Tiles};
 use super::interval::Interval;
 use physics::parallel;
@@ -252,7 +252,7 @@ impl Folder<'_> {
     /// The magnets, if there is a formula for them where they are.
     fn known_at(&self, pose: Option<Pose>) -> Option<&Magnets> {
         self.magnets
-            .filter(|it| pose.is_none_or(|pose| !it.overlap(pose)))
+            .filter(|it| pose.is_none_or(|pose| !it.overlap(pose, TOUCH)))
     }
 
     fn free(&self, what: &str, pose: Pose, book: &mut Book) {
@@ -285,7 +285,7 @@ impl Folder<'_> {
         });
         let found = parallel::map(&report.states, |state| {
             let of = |magnets: Option<&Magnets>, stated: f64| {
-                let known = magnets.filter(|it| !it.overlap(state.pose));
+                let known = magnets.filter(|it| !it.overlap(state.pose, TOUCH));
                 known.map(|it| it.energy_beside(stated, state.pose))
             };
             let asked = state.block_energy;
@@ -378,13 +378,16 @@ impl Folder<'_> {
             .map(|it| magnets.energy_beside(it.energy, it.pose()))
             .collect();
         for (number, (point, own)) in points.iter().zip(&own).enumerate() {
-            if magnets.overlap(point.pose()) {
-                book.leave(Subject::Points, 1);
-                continue;
-            }
             let mut allowed = self.allowed.energy + 1e-9 * own.abs();
+            let mut overlap = TOUCH;
             if (point.energy - own).abs() > allowed {
                 allowed += rounding(magnets, point.pose(), *own);
+                // Where discs touch, rounding decides whether they overlap.
+                overlap = -TOUCH;
+            }
+            if magnets.overlap(point.pose(), overlap) {
+                book.leave(Subject::Points, 1);
+                continue;
             }
             let what = format!("{name}, point {number}: energy_J");
             book.compare(Subject::Points, &what, [point.energy, *own], allowed);

@@ -26,7 +26,11 @@ pub fn question(
     }
     let below = barrier.from_energy - SAME_ENERGY * barrier.from_energy.abs();
     let lower = catalogue.states.iter().filter(|state| state.energy < below);
-    let places = lower.map(|state| state.configuration).collect();
+    let places: Vec<_> = lower.map(|state| state.configuration).collect();
+    // Of the deepest state there is one way out, the barrier itself.
+    if places.is_empty() {
+        return None;
+    }
     let mut question = super::question(catalogue, barrier, effort)?;
     question.to = Goal { places, free: true };
     question.effort.cells = effort.cells.min(CELLS);
