@@ -182,3 +182,20 @@ fn far_starts_that_rest_beside_the_bond_are_bound() {
         settings.survey.far_starts()
     );
 }
+
+/// The deepest state's only way out is its barrier, which has all the cells that barriers have: with those
+/// of an escape over several ways out, the bracket is 9 % of the depth.
+#[test]
+#[ignore = "slow"]
+fn the_bonds_bracket_is_as_narrow_as_is_sought() {
+    let design = designs::load("shapes/self-binding-hexagon.toml");
+    let settings = Request {
+        claims: Claims::BondAndDeepestTrap,
+        complete_work: Some(0.0),
+        ..Request::default()
+    };
+    let analysis = analyse(&design, &settings, &Silent);
+    let way_out = analysis.catalogue.way_out_of_the_bond().unwrap();
+    let width = way_out.bounds.width();
+    assert!(width <= 0.01 * analysis.problem.depth(), "{width}");
+}
