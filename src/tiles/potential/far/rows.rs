@@ -262,12 +262,9 @@ impl<const N: usize> Task for Several<'_, N> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Self::Output {
         let into = self.axes[0].conj();
-        let mut places = [[0.0; WIDTH]; 2];
-        for lane in 0..WIDTH {
-            let way = self.ways[lane.min(N - 1)] * into;
-            (places[0][lane], places[1][lane]) = (way.re, way.im);
-        }
-        let pairs = Pairs::between(l, places.map(|all| l.load(&all)), l.splat(self.moments));
+        let ways: [_; WIDTH] = std::array::from_fn(|lane| self.ways[lane.min(N - 1)] * into);
+        let r = [ways.map(|way| way.re), ways.map(|way| way.im)].map(|all| l.load(&all));
+        let pairs = Pairs::between(l, r, l.splat(self.moments));
         let terms = self.form.terms(&self.form.squares, l.least(pairs.rr));
         let mut coefficients = Coefficients::NONE;
         let turn = self.axes[1] * into;
