@@ -351,8 +351,8 @@ impl Magnets {
     }
 
     /// Whether discs overlap each other or other magnets at a pose by more than a length (m), as those that
-    /// break through a surface may: a disc's axis at imaginary heights, by which analyses compute its energy, does not stand for
-    /// it there. Magnets that are there cannot be.
+    /// break through a surface may: a disc's axis at imaginary heights, by which analyses compute its
+    /// energy, does not stand for it there. Magnets that are there cannot be.
     pub fn overlap(&self, pose: Pose, by: f64) -> bool {
         if self.model == Model::Dipoles {
             return false;

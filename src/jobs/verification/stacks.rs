@@ -1,5 +1,5 @@
 //! Two uniformly charged faces of any form, as stacks of parallel lines: closed forms for two lines,
-//! adaptive quadrature over both stacks.
+//! fixed lines of both stacks where they are apart, and adaptive quadrature over both where they are near.
 //!
 //! A face that stands on edge is a stack of upright lines, one that lies parallel to the tiles' plane is
 //! one of lines along x. Faces of different kinds are none of this module's: those that lie come in
@@ -182,13 +182,8 @@ pub(super) fn integral(a: &Face, b: &Face, allowed: f64) -> f64 {
     let apart = between_edges(first.across(), second.across()) / first.reach.max(second.reach);
     match LINES.iter().position(|(_, least)| apart >= *least) {
         Some(at) => by_rule(&first, &second, &RULES[at]),
-        None => in_halves(&first, &second, allowed),
+        None => adaptive(a, b, allowed),
     }
-}
-
-/// The same in halves, however near they are.
-pub(super) fn adaptive(a: &Face, b: &Face, allowed: f64) -> f64 {
-    in_halves(&Stack::of(a), &Stack::of(b), allowed)
 }
 
 fn by_rule(first: &Stack, second: &Stack, rule: &[[f64; 2]]) -> f64 {
@@ -203,10 +198,11 @@ fn by_rule(first: &Stack, second: &Stack, rule: &[[f64; 2]]) -> f64 {
 }
 
 /// The same in halves, however near they are.
-fn in_halves(first: &Stack, second: &Stack, allowed: f64) -> f64 {
+pub(super) fn adaptive(a: &Face, b: &Face, allowed: f64) -> f64 {
+    let (first, second) = (Stack::of(a), Stack::of(b));
     let ends = [-FRAC_PI_2, FRAC_PI_2].map(|angle| first.nearest(second.line(angle).0.at));
     // Where lines come close to each other, integrands bend sharply.
-    let more: Vec<f64> = ends.into_iter().chain(first.crossing(second)).collect();
+    let more: Vec<f64> = ends.into_iter().chain(first.crossing(&second)).collect();
     let inner = |angle: f64| {
         let (line, weight) = first.line(angle);
         if line.high <= line.low {

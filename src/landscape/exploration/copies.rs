@@ -99,9 +99,8 @@ impl Exploration<'_> {
     /// Adds the image of a route, from the image of its first node.
     pub(super) fn add_image(&mut self, mut here: usize, route: &Route, symmetry: &Symmetry) {
         for &(number, forwards) in route {
-            let link = &self.network.links[number];
-            let next = if forwards { link.to } else { link.from };
-            let next = self.image_node(next as usize, symmetry);
+            let [_, next] = self.network.ends_along((number, forwards));
+            let next = self.image_node(next, symmetry);
             let ends = if forwards { [here, next] } else { [next, here] };
             self.network.add_image(number, ends, symmetry);
             here = next;

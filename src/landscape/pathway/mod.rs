@@ -128,7 +128,7 @@ fn extend_to_ends(network: &Network, route: &Route, all: &mut Vec<Point>) {
     let [Some(first), Some(last)] = [route.first(), route.last()] else {
         return;
     };
-    let [[start, _], [_, end]] = [first, last].map(|link| ends(network, *link));
+    let [[start, _], [_, end]] = [first, last].map(|link| network.ends_along(*link));
     let beside = |node: usize, point: Option<&Point>| {
         let (q, _) = network.nodes[node]?;
         let far = SAME * problem.space.rho;
@@ -139,13 +139,6 @@ fn extend_to_ends(network: &Network, route: &Route, all: &mut Vec<Point>) {
         all.insert(0, start);
     }
     all.extend(beside(end, all.last()));
-}
-
-/// The nodes from which and to which a link of a route leads.
-fn ends(network: &Network, (number, forwards): (usize, bool)) -> [usize; 2] {
-    let link = &network.links[number];
-    let [from, to] = [link.from as usize, link.to as usize];
-    if forwards { [from, to] } else { [to, from] }
 }
 
 enum Stretch {
@@ -167,8 +160,9 @@ fn stretches(network: &Network, route: &Route) -> Vec<Stretch> {
                 all.push(Stretch::Way(way));
             }
             None => {
-                let ends = ends(network, (number, forwards));
-                let ends = ends.map(|node| network.nodes[node].map(|n| n.0));
+                let ends = network
+                    .ends_along((number, forwards))
+                    .map(|node| network.nodes[node].map(|n| n.0));
                 let [Some(a), Some(b)] = ends else { continue };
                 match all.last_mut() {
                     Some(Stretch::Straight(points)) => points.push(b),

@@ -16,6 +16,13 @@ use crate::roadmap::edge::EdgeCosts;
 pub type Route = Vec<(usize, bool)>;
 
 impl Network<'_> {
+    /// The nodes from which and to which a link of a route leads.
+    pub fn ends_along(&self, (number, forwards): (usize, bool)) -> [usize; 2] {
+        let link = &self.links[number];
+        let [from, to] = [link.from as usize, link.to as usize];
+        if forwards { [from, to] } else { [to, from] }
+    }
+
     /// The cheapest route from a node to any of the `goals`: its end, its cost and its links. The
     /// choice among equally cheap routes is always the same.
     pub fn cheapest(

@@ -128,10 +128,12 @@ fn arrive(experiment: &Experiment, starts: &Apart, kt: f64, index: usize) -> Arr
     });
     let last = &run.last;
     let minimum = || minimum_below(problem, &last.motion.configuration, &Known::default());
-    let caught = match is_bound {
-        _ if run.stop == Stop::Failed => Some(Caught::Unsolved),
-        true => Some(Caught::Bond),
-        false => (last.in_contact_range && last.total() < 0.0).then(|| Caught::Minimum(minimum())),
+    let caught = match (run.stop, is_bound) {
+        (Stop::Failed, _) => Some(Caught::Unsolved),
+        (_, true) => Some(Caught::Bond),
+        (_, false) => {
+            (last.in_contact_range && last.total() < 0.0).then(|| Caught::Minimum(minimum()))
+        }
     };
     Arrival {
         time: last.time,

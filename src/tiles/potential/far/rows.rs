@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::{Complex, Vector2};
 
 use super::group::Group;
-use super::multipole::Coefficients;
+use super::multipole::{Coefficients, Multipole};
 use super::terms::{Pairs, STEPS, Sums, add_terms};
 use super::{FarForm, PairEnergy};
 use crate::configuration::Configuration;
@@ -118,6 +118,22 @@ impl Known {
             (self.sizes, self.axes) = (sizes, axes);
         }
     }
+
+    /// The coefficients of this many terms for `turn`, to which all that are known apply.
+    #[inline(always)]
+    fn up_to<L: Lanes, const SLOPE: bool>(
+        &mut self,
+        l: L,
+        series: &Multipole,
+        turn: Complex<f64>,
+        terms: usize,
+    ) -> &Coefficients {
+        if self.terms < terms {
+            series.evaluate::<L, SLOPE>(l, turn, self.terms..terms, &mut self.coefficients);
+            self.terms = terms;
+        }
+        &self.coefficients
+    }
 }
 
 impl Facing<'_> {
@@ -196,12 +212,7 @@ impl Facing<'_> {
                     row.leave_out(l, near, near_pairs);
                 }
                 let terms = form.terms(steps, row.least);
-                let coefficients = &mut known.coefficients;
-                if known.terms < terms {
-                    form.series
-                        .evaluate::<L, SLOPE>(l, turn, known.terms..terms, coefficients);
-                    known.terms = terms;
-                }
+                let coefficients = known.up_to::<L, SLOPE>(l, &form.series, turn, terms);
                 add_terms::<L, SLOPE>(l, terms, coefficients, &row.pairs, &mut sums);
             }
         }
@@ -222,26 +233,37 @@ impl Facing<'_> {
             turn,
             centre,
         } = self;
-        let (mut coefficients, mut known) = (Coefficients::NONE, 0);
+        let mut known = Known::none();
         for j in 0..moving.count {
             let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
             for from in (0..fixed.x.len()).step_by(WIDTH) {
                 let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
-                let terms = form.terms(&form.squares, l.least(pairs.rr));
-                if known < terms {
-                    form.series
-                        .evaluate::<L, SLOPE>(l, turn, known..terms, &mut coefficients);
-                    known = terms;
-                }
-                let mut sums = Sums::zero(l);
-                add_terms::<L, SLOPE>(l, terms, &coefficients, &pairs, &mut sums);
-                let lanes = Lane::split(l, &sums, pairs.rr, fixed.axis);
+                let lanes = form.alone::<L, SLOPE>(l, (fixed.axis, turn), &pairs, &mut known);
                 let count = (fixed.count - from).min(WIDTH);
                 for (lane, found) in lanes[..count].iter().enumerate() {
                     each([from + lane, j], found);
                 }
             }
         }
+    }
+}
+
+impl FarForm {
+    /// Pairs by their series, each by itself, given the direction of the first magnets and by how much the
+    /// second ones are turned from it. Derivatives are zero unless requested.
+    #[inline(always)]
+    fn alone<L: Lanes, const SLOPE: bool>(
+        &self,
+        l: L,
+        (axis, turn): (Complex<f64>, Complex<f64>),
+        pairs: &Pairs<L::F>,
+        known: &mut Known,
+    ) -> [Lane; WIDTH] {
+        let terms = self.terms(&self.squares, l.least(pairs.rr));
+        let coefficients = known.up_to::<L, SLOPE>(l, &self.series, turn, terms);
+        let mut sums = Sums::zero(l);
+        add_terms::<L, SLOPE>(l, terms, coefficients, pairs, &mut sums);
+        Lane::split(l, &sums, pairs.rr, axis)
     }
 }
 
@@ -265,14 +287,10 @@ impl<const N: usize> Task for Several<'_, N> {
         let ways: [_; WIDTH] = std::array::from_fn(|lane| self.ways[lane.min(N - 1)] * into);
         let r = [ways.map(|way| way.re), ways.map(|way| way.im)].map(|all| l.load(&all));
         let pairs = Pairs::between(l, r, l.splat(self.moments));
-        let terms = self.form.terms(&self.form.squares, l.least(pairs.rr));
-        let mut coefficients = Coefficients::NONE;
-        let turn = self.axes[1] * into;
-        let series = &self.form.series;
-        series.evaluate::<L, true>(l, turn, 0..terms, &mut coefficients);
-        let mut sums = Sums::zero(l);
-        add_terms::<L, true>(l, terms, &coefficients, &pairs, &mut sums);
-        let lanes = Lane::split(l, &sums, pairs.rr, self.axes[0]);
+        let turned = (self.axes[0], self.axes[1] * into);
+        let lanes = self
+            .form
+            .alone::<L, true>(l, turned, &pairs, &mut Known::none());
         std::array::from_fn(|lane| lanes[lane].pair)
     }
 }

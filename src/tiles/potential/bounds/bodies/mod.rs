@@ -264,8 +264,8 @@ impl Pair<'_> {
         let arc = k1 * lever * w * w * w / 6.0;
         let third = (k3 * v * v * v + 3.0 * k2 * v * lever * w * w) / 6.0 + arc;
         let third = apart.map_or(third, |apart| third.min(apart.remainder));
-        // Longer steps err by their third derivatives, shorter ones by the errors of slopes: the best are where both
-        // are equal.
+        // Longer steps err by their third derivatives, shorter ones by the errors of slopes: the best are
+        // where both are equal.
         let unit = k3 + 3.0 * k2 / radius + k1 / (radius * radius);
         let [by_length, by_error] = [0.5 * unit * v * v * v, 2.0 * slopes * k1 * v];
         let step = (by_error / by_length).sqrt().clamp(least_step, most_step);
