@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use tilebind::calibration::{Fitted, Request};
+use tilebind::calibration::{Fitted, ForcesRequest, PairsRequest};
 use tilebind::observer::Silent;
 use tilebind::report::calibration::{FILES, document};
 
@@ -16,6 +16,7 @@ use super::{Failure, input};
 #[command(
     mut_arg("area", |area| area.requires("bonds")),
     mut_arg("within", |within| within.requires("bonds")),
+    mut_arg("hold_out", |hold_out| hold_out.conflicts_with_all(["bonds", "gaps"])),
     after_help = EXAMPLES,
     after_long_help = format!("{NOTES}\n\n{EXAMPLES}")
 )]
@@ -36,7 +37,10 @@ pub struct Calibrate {
     bonds: Option<PathBuf>,
 
     #[command(flatten)]
-    request: Request,
+    pairs: PairsRequest,
+
+    #[command(flatten)]
+    forces: ForcesRequest,
 
     #[command(flatten)]
     results: ResultOptions,
@@ -89,9 +93,9 @@ impl Calibrate {
         let output = self.results.output(&FILES, inputs)?;
         let progress = self.results.progress();
         let found = input::table(&file, |text| match (&self.bonds, &self.gaps) {
-            (Some(_), _) => self.request.of_pairs(&design, text, &Silent),
+            (Some(_), _) => self.pairs.of_pairs(&design, text, &Silent),
             (_, Some(_)) => Fitted::of_gaps(&design, text),
-            _ => self.request.of_forces(&design, text),
+            _ => self.forces.of_forces(&design, text),
         })?;
         self.results
             .deliver(&document(&design, &found), output, &progress)

@@ -70,7 +70,25 @@ pub fn read(path: &Path) -> io::Result<String> {
 pub fn is_invisible(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}'
-            | '\u{2060}'..='\u{2069}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
+            | '\u{2060}'..='\u{2069}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}'
+            // These are not characters of XML either.
+            | '\u{fffe}' | '\u{ffff}')
+}
+
+/// Checks that a text has no invisible characters, but for those that are `allowed`.
+///
+/// # Errors
+/// The first that it has, in words.
+pub fn check_visible(text: &str, allowed: impl Fn(char) -> bool) -> Result<(), String> {
+    let Some(c) = text.chars().find(|&c| is_invisible(c) && !allowed(c)) else {
+        return Ok(());
+    };
+    let kind = if c.is_control() {
+        "control"
+    } else {
+        "invisible"
+    };
+    Err(format!("contains the {kind} character U+{:04X}", c as u32))
 }
 
 /// The error of bytes that are not text.

@@ -51,7 +51,7 @@ fn calls() -> Vec<Call> {
         call::<yields::Request>("Design.yields", &[]),
         call::<table::Request>("_AirTable.__call__", &[]),
         call::<workshop::Request>("Design.make", &[]),
-        call::<calibration::Request>("Design.calibrate_bonds", &["hold_out"]),
+        call::<calibration::PairsRequest>("Design.calibrate_bonds", &[]),
         call::<start::Request>("Design.start", &[]),
         call::<comparison::Request>("compare", &[]),
         call::<sweep::Request>("sweep", &[]),

@@ -51,7 +51,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use crate::design::{DesignError, Place};
-use crate::text::is_invisible;
+use crate::text::{check_visible, is_invisible};
 
 pub use assembled::{Assembly, Growing};
 pub use axis::{Axis, SIDES};
@@ -192,9 +192,11 @@ impl TileSet {
         let glues = self.glues.iter().map(|glue| &glue.name);
         let tiles = self.tiles.iter().map(|tile| &tile.name);
         let mut names = glues.clone().chain(tiles.clone());
-        if let Some(name) = names.find(|name| name.contains(is_invisible)) {
-            let message = format!("the name {name:?} has characters that cannot be seen");
-            return wrong("", message, "use only printable characters in it");
+        if let Some((name, told)) = names.find_map(|name| {
+            let told = check_visible(name, |_| false);
+            told.err().map(|told| (name, told))
+        }) {
+            return wrong("", format!("the name {name:?} {told}"), "delete it");
         }
         let mut seen = HashSet::new();
         if let Some(name) = glues.clone().find(|name| !seen.insert(*name)) {

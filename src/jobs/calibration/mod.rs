@@ -40,9 +40,9 @@ use physics::tile::Tile;
 pub use rows::{COLUMNS, Row, read_rows};
 use strength::StrengthFit;
 
-/// The options of a calibration.
+/// The options of a fit of kT to pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
-pub struct Request {
+pub struct PairsRequest {
     /// Area per pair (m^2) [default: what the rim and the fixed tile leave of the design's table]
     #[arg(long, value_name = "M2", value_parser = request::area)]
     pub area: Option<f64>,
@@ -52,7 +52,11 @@ pub struct Request {
     /// At larger distances the rim of the table biases the result.
     #[arg(long, value_name = "R", value_parser = request::length)]
     pub within: Option<f64>,
+}
 
+/// The options of a fit to forces and energies.
+#[derive(Clone, Copy, Debug, PartialEq, Args)]
+pub struct ForcesRequest {
     /// Hold out one in N rows from the fit
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = request::whole(2, u16::MAX))]
     pub hold_out: u16,
@@ -110,7 +114,7 @@ impl Unanswered for FitError {
     }
 }
 
-impl Request {
+impl ForcesRequest {
     /// Fits the constants of shields to a table of forces and energies; if no row has iron, the
     /// strength of the magnets.
     ///
@@ -129,7 +133,9 @@ impl Request {
         let found = calibrate(&specimen, &rows, &settings)?;
         Ok(Fitted::Shields(Box::new(found)))
     }
+}
 
+impl PairsRequest {
     /// Fits kT to a table of pairs: their distances, or how long they were bound and apart.
     ///
     /// # Errors

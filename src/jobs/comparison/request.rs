@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::Quantity;
 use crate::design::Design;
 use crate::pipeline::{self, Certify, Check, Survey};
-use crate::request::{self, Misused, of_keywords, options};
+use crate::request::{self, Misused, of_keywords};
 use crate::tolerance::{MakingErrors, NO_ERRORS};
 use physics::landscape::Claims;
 
@@ -35,7 +35,7 @@ pub struct Thoroughness {
     /// Target width (J) of the certified bounds [default: 1/100 of the bond, or less]
     ///
     /// The default is 1/100 of the bond's depth or 1/20 of the barrier, whichever is smaller.
-    #[arg(long, value_name = "E_J", value_parser = request::energy)]
+    #[arg(long, alias = "tolerance-J", value_name = "E_J", value_parser = request::energy)]
     #[serde(rename = "tolerance_J")]
     pub tolerance: Option<f64>,
 
@@ -114,14 +114,9 @@ impl Thoroughness {
             return Ok(());
         };
         let given = settings.into_iter().filter(|(_, value)| !value.is_null());
-        // Their names are in the keys, with units or a word on what is meant.
-        let known = options::<Self>();
-        let option = |(key, value): (String, Value)| {
-            let named = known.iter().filter(|name| key.contains(&name[..]));
-            let option = named.max_by_key(|name| name.len()).unwrap_or(&key);
-            (option.clone(), vec![value.to_string()])
-        };
-        of_keywords::<Self>(given.map(option)).map(drop)
+        // Keys that are not the options' names are aliases of theirs.
+        let given = given.map(|(key, value)| (key, vec![value.to_string()]));
+        of_keywords::<Self>(given).map(drop)
     }
 
     /// The request of an analysis.

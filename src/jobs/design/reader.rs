@@ -1,6 +1,6 @@
 //! Typed reading of a TOML tree in which every key and value knows its position in the file.
 
-use crate::text::is_invisible;
+use crate::text::check_visible;
 use physics::order::Order;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
@@ -168,7 +168,7 @@ impl<'a> Entry<'a> {
     pub fn string(&self) -> Result<&'a str> {
         let text = self.text();
         let text = text.ok_or_else(|| self.wrong_type("a string"))?;
-        self.without(text, |c| !matches!(c, '\n' | '\r' | '\t'))
+        self.visible(text, |c| matches!(c, '\n' | '\r' | '\t'))
     }
 
     /// The path of a file. In double quotes a backslash begins an escape, so a path of Windows would
@@ -187,28 +187,12 @@ impl<'a> Entry<'a> {
 
     /// A text of one line.
     pub fn line(&self) -> Result<&'a str> {
-        self.without(self.string()?, |_| true)
+        self.visible(self.string()?, |_| false)
     }
 
-    fn without(&self, text: &'a str, refused: impl Fn(char) -> bool) -> Result<&'a str> {
-        // The last two are not characters of XML either.
-        let odd = |c: char| is_invisible(c) || matches!(c, '\u{fffe}' | '\u{ffff}');
-        match text.chars().find(|&c| odd(c) && refused(c)) {
-            None => Ok(text),
-            Some(c) => Err(self.error(
-                format!(
-                    "`{}` contains the {} character U+{:04X}",
-                    self.key,
-                    if c.is_control() {
-                        "control"
-                    } else {
-                        "invisible"
-                    },
-                    c as u32
-                ),
-                "delete it",
-            )),
-        }
+    fn visible(&self, text: &'a str, allowed: impl Fn(char) -> bool) -> Result<&'a str> {
+        let wrong = |told| self.error(format!("`{}` {told}", self.key), "delete it");
+        check_visible(text, allowed).map(|()| text).map_err(wrong)
     }
 
     /// The place of character `index` of a string: the character itself if the string is written

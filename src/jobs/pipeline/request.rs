@@ -268,7 +268,7 @@ pub struct Survey {
     pub far_starts: Option<usize>,
 
     /// Kinds of state to analyse, deepest first [default: all; fewer for very many magnets]
-    #[arg(long, value_name = "N", value_parser = request::count)]
+    #[arg(long, alias = "most-kinds", value_name = "N", value_parser = request::count)]
     #[serde(
         default,
         rename = "most_kinds",

@@ -19,17 +19,17 @@ pub struct MakingErrors {
     pub strength: Option<f64>,
 
     /// Error of the magnets' places, along and across the face: standard deviation, such as "0.3 mm"
-    #[arg(long, value_name = "L", value_parser = shift)]
+    #[arg(long, alias = "place-m", value_name = "L", value_parser = shift)]
     #[serde(default, rename = "place_m", skip_serializing_if = "Option::is_none")]
     pub place: Option<f64>,
 
     /// Error of the magnets' axes: standard deviation, such as "3 deg"
-    #[arg(long, value_name = "A", value_parser = turn)]
+    #[arg(long, alias = "turn-rad", value_name = "A", value_parser = turn)]
     #[serde(default, rename = "turn_rad", skip_serializing_if = "Option::is_none")]
     pub turn: Option<f64>,
 
     /// Gap left between touching faces by glue, paint or rough cuts, such as "0.1 mm"
-    #[arg(long, value_name = "L", value_parser = shift)]
+    #[arg(long, alias = "gap-m", value_name = "L", value_parser = shift)]
     #[serde(default, rename = "gap_m", skip_serializing_if = "Option::is_none")]
     pub gap: Option<f64>,
 
@@ -49,7 +49,7 @@ pub struct MakingErrors {
     pub draws: Option<usize>,
 
     /// Least ratio of the bond's depth to the deepest trap's with which a pair works [default: 1.5]
-    #[arg(long, value_name = "R", value_parser = request::positive)]
+    #[arg(long, alias = "least-selectivity", value_name = "R", value_parser = request::positive)]
     #[serde(
         default,
         rename = "least_selectivity",

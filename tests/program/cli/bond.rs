@@ -520,6 +520,10 @@ fn distances_of_pairs_tell_kt() {
     let [low, high] = numbers(&found["kT_interval_J"])[..] else {
         panic!()
     };
+    // Nothing is held out of a fit to pairs.
+    let output = tilebind(&[&asked[..], &["--hold-out", "5"]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("cannot be used with '--hold-out"));
     // Bond and traps of 65 and 33 mJ hold half of all pairs at a seventh to a thirtieth of the bond.
     assert!(low < kt && kt < high, "{found}");
     assert!((2e-3..9e-3).contains(&kt), "{kt}");

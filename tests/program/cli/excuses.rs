@@ -334,7 +334,7 @@ fn names_that_cannot_be_files_are_shortened_or_refused() {
     let output = tilebind(&command);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     write("q\u{202e}p");
-    refused(&command, &["cannot be seen"]);
+    refused(&command, &["invisible character U+202E"]);
 }
 
 #[test]

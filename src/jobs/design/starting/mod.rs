@@ -10,7 +10,7 @@ use std::fmt::Write;
 
 use super::quantity::{four_digits, rounded_down};
 use super::{Design, DesignError};
-use crate::text::is_invisible;
+use crate::text::check_visible;
 use physics::tile::barcode::Barcode;
 
 use code::code;
@@ -114,16 +114,8 @@ fn wrong(wrong: impl Into<String>, fix: impl Into<String>) -> StartError {
 
 /// Refuses a name with characters that are not seen.
 pub(crate) fn check_name(name: &str) -> Result<(), StartError> {
-    match name.chars().find(|&c| is_invisible(c)) {
-        None => Ok(()),
-        Some(odd) => Err(wrong(
-            format!(
-                "the name contains the invisible character U+{:04X}",
-                odd as u32
-            ),
-            "delete it",
-        )),
-    }
+    let told = check_visible(name, |_| false);
+    told.map_err(|told| wrong(format!("the name {told}"), "delete it"))
 }
 
 impl Start {

@@ -233,7 +233,7 @@ impl Design {
         table: &Bound<'py, PyAny>,
         hold_out: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let asked: calibration::Request = request_with(py, None, "hold_out", hold_out)?;
+        let asked: calibration::ForcesRequest = request_with(py, None, "hold_out", hold_out)?;
         let (design, text) = (&self.content.design, text(table)?);
         let found = job::answer(py, Some(false), |_| asked.of_forces(design, &text))?;
         shown::report(py, &report::calibration::document(design, &found))
@@ -285,7 +285,7 @@ impl Design {
         table: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let asked: calibration::Request = request(settings)?;
+        let asked: calibration::PairsRequest = request(settings)?;
         let (design, text) = (&self.content.design, text(table)?);
         let found = job::answer(py, Some(false), |told| asked.of_pairs(design, &text, told))?;
         shown::report(py, &report::calibration::document(design, &found))
