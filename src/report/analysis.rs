@@ -160,9 +160,6 @@ pub fn files(
 #[rustfmt::skip]
 pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -> Entries {
     let (counts, catalogue) = (&analysis.counts, &analysis.catalogue);
-    let stages = analysis.stages.iter().map(|stage| json!({
-        "name": stage.name, "wall_s": stage.wall_s, "energy_evaluations": stage.energy_evaluations,
-    }));
     Entries::default()
         .data("tilebind", env!("CARGO_PKG_VERSION"))
         .data("design", identity(design))
@@ -204,7 +201,7 @@ pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -
             // Of the certificate.
             "cells": counts.cells,
         }))
-        .data("timing", json!({"total_wall_s": wall, "stages": stages.collect::<Value>()}))
+        .data("timing", json!({"total_wall_s": wall, "stages": analysis.stages}))
 }
 
 /// The analysed design; the checksum is that of the design file's bytes.
@@ -255,42 +252,33 @@ fn settings(design: &Design, analysis: &Analysis) -> Value {
 /// (`share` is their share of the space). `unproved` says why nothing is proved, and is null
 /// otherwise.
 fn missing(analysis: &Analysis) -> Value {
-    let mut entry = match &analysis.completeness {
-        Ok(known) => json!({
-            "below_J": known.below,
-            "escape_J": known.escape,
-            "complete": known.is_complete(),
-            "open": known.open.iter().map(|region| json!({
-                "pose": pose(&region.pose),
-                "volume": region.volume,
-                "lowest_J": region.lowest,
-            })).collect::<Value>(),
-            "share": known.share,
-            "cells": known.cells,
-            // What ended the proof before it was complete; null if nothing did.
-            "ended_by": known.ended.map(Ended::name),
-            "unproved": null,
-        }),
-        Err(why) => json!({
-            "below_J": null,
-            "escape_J": null,
-            "complete": false,
-            "open": [],
-            "share": 1.0,
-            "cells": 0,
-            "ended_by": null,
-            "unproved": why.to_string(),
-        }),
-    };
-    // Kinds of states that were found but exceed the requested number, and the energy of the
-    // deepest; null if all are listed.
-    entry["left_out"] = json!(analysis.counts.left_out.map(|left| json!({
-        "kinds": left.kinds,
-        "lowest_J": left.lowest,
-    })));
-    // Estimated share of far starts that would end in a kind of state in which none has ended yet.
-    entry["unseen"] = proportion(analysis.catalogue.unseen());
-    entry
+    let known = analysis.completeness.as_ref().ok();
+    let open = known.iter().flat_map(|known| &known.open).map(|region| {
+        json!({
+            "pose": pose(&region.pose),
+            "volume": region.volume,
+            "lowest_J": region.lowest,
+        })
+    });
+    json!({
+        "below_J": known.map(|it| it.below),
+        "escape_J": known.map(|it| it.escape),
+        "complete": known.is_some_and(|it| it.is_complete()),
+        "open": open.collect::<Value>(),
+        "share": known.map_or(1.0, |it| it.share),
+        "cells": known.map_or(0, |it| it.cells),
+        // What ended the proof before it was complete; null if nothing did.
+        "ended_by": known.and_then(|it| it.ended).map(Ended::name),
+        "unproved": analysis.completeness.as_ref().err().map(ToString::to_string),
+        // Kinds of states that were found but exceed the requested number, and the energy of the
+        // deepest; null if all are listed.
+        "left_out": analysis.counts.left_out.map(|left| json!({
+            "kinds": left.kinds,
+            "lowest_J": left.lowest,
+        })),
+        // Estimated share of far starts that would end in a kind of state in which none has ended yet.
+        "unseen": proportion(analysis.catalogue.unseen()),
+    })
 }
 
 /// A pathway by a cost other than the maximum energy: the work against the energy on the path, or

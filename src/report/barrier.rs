@@ -1,7 +1,5 @@
 //! One barrier between two poses, as a document.
 
-use serde_json::json;
-
 use crate::csv::{SEEN, pathway as csv_of, thinned};
 use crate::document::{Cell, Document, Drawing, Entries, rows};
 use crate::files::{Files, PAGE, REPORT};
@@ -66,14 +64,11 @@ fn entries(query: &Request, answer: &Answer, file: Option<&str>) -> Entries {
         .fact("from", "from", query.from)
         .fact("to", "to", to)
         // Why the bounds are null, if they are.
-        .data(
-            "uncertified",
-            json!(answer.uncertified.map(|why| why.to_string())),
-        )
+        .data("uncertified", answer.uncertified.map(|why| why.to_string()))
         // What ended the narrowing of bounds early: "work" or "clock" (only with the latter can
         // runs differ).
-        .data("ended_by", json!(answer.ended.map(Ended::name)))
-        .data("pathway", json!(file))
+        .data("ended_by", answer.ended.map(Ended::name))
+        .data("pathway", file)
 }
 
 fn sentence(design: &Design, query: &Request, answer: &Answer) -> String {

@@ -98,11 +98,11 @@ fn strength_of_magnets(design: &Design, found: &StrengthFit) -> Document<'static
         remarks: strength_lines(design, found),
         entries: entries(design)
             .fact("remanence_T", "remanence", found.remanence).digits(4)
-            .data("interval_T", json!(found.interval))
+            .data("interval_T", found.interval)
             .fact("interval_shown_T", "95 % interval", found.interval.map(|it| it.map(Some))).in_view()
             .fact("nominal_T", "remanence in the design", found.nominal).digits(4)
             .fact("gap_offset_m", "offset of the gap", found.offset).noted("how much further apart the poles are than the design and the gaps say")
-            .data("gap_offset_interval_m", json!(found.offset_interval))
+            .data("gap_offset_interval_m", found.offset_interval)
             .fact("misfit_rms", "misfit", found.misfit).share().noted("root mean square, of the readings")
             .fact("fits", "", found.fits)
             .more((!found.readings.is_empty()).then_some(Entry::Table(readings))),
@@ -344,7 +344,7 @@ fn of_kt(design: &Design, kt: Option<f64>, interval: [Option<f64>; 2]) -> Entrie
         .fact("kT_J", "kT", kt)
         .noted("effective energy of shaking")
         // The ends are separate entries, since one may be unknown.
-        .data("kT_interval_J", json!(interval))
+        .data("kT_interval_J", interval)
         .fact("interval_J", "95 % interval", interval)
         .in_view()
 }

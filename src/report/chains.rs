@@ -33,13 +33,16 @@ pub(crate) fn entries(built: &Rows) -> Entries {
         )
     };
     Entries::default()
-        .data("bonds", interval(&built.bonds))
+        .data("bonds", built.bonds)
         .fact("", "bonds", number(&built.bonds))
         .in_view()
-        .noted(format!("at the end, mean over {} simulations with its interval", built.runs))
+        .noted(format!(
+            "at the end, mean over {} simulations with its interval",
+            built.runs
+        ))
         .data(
             "tiles_in",
-            json!({"single": interval(&single), "chains": interval(&chains), "rings": interval(&rings)}),
+            json!({"single": single, "chains": chains, "rings": rings}),
         )
         .fact("", "single tiles", share(&single))
         .in_view()
@@ -48,7 +51,7 @@ pub(crate) fn entries(built: &Rows) -> Entries {
         .fact("", "in rings", share(&rings))
         .in_view()
         .data("longest_chain", built.longest)
-        .data("closures", closures(built))
+        .data("closures", &built.closings)
         .table(structures(built))
         .table(course(built))
 }
@@ -56,14 +59,14 @@ pub(crate) fn entries(built: &Rows) -> Entries {
 /// The same of one kT, as JSON.
 pub(crate) fn of_setting(built: &Rows) -> Value {
     json!({
-        "bonds": interval(&built.bonds),
+        "bonds": built.bonds,
         "tiles_in": {
-            "single": interval(&built.shares[0]),
-            "chains": interval(&built.shares[1]),
-            "rings": interval(&built.shares[2]),
+            "single": built.shares[0],
+            "chains": built.shares[1],
+            "rings": built.shares[2],
         },
         "longest_chain": built.longest,
-        "closures": closures(built),
+        "closures": built.closings,
         "structures": built.counts.iter().filter(|it| it.size > 1).map(|it| json!({
             "kind": kind(it), "size": it.size,
             "mean": it.number.mean, "low": it.number.low, "high": it.number.high,
@@ -126,13 +129,6 @@ pub(crate) fn chart(built: &Rows) -> Chart {
     .with("in rings", Look::Line, line(4))
 }
 
-fn closures(built: &Rows) -> Value {
-    let each = built.closings.iter().map(
-        |it| json!({"size": it.size, "effective_area_m2": it.area, "closures_per_s": it.rate}),
-    );
-    json!(each.collect::<Vec<Value>>())
-}
-
 fn kind(count: &Count) -> &'static str {
     match count.is_ring {
         true => "ring",
@@ -186,10 +182,6 @@ fn course(built: &Rows) -> Table {
         .table("structures_over_time")
         .in_data()
         .in_file("growth")
-}
-
-fn interval(mean: &Mean) -> Value {
-    json!({"mean": mean.mean, "low": mean.low, "high": mean.high})
 }
 
 /// `5.2 (4.9 to 5.4)`.

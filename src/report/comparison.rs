@@ -77,7 +77,7 @@ impl Comparison {
         let mut all = Entries::default()
             .data("tilebind", env!("CARGO_PKG_VERSION"))
             .data("ranked_by", self.by.key)
-            .data("settings", json!(self.settings))
+            .data("settings", &self.settings)
             .data("capture_range", capture_settings())
             .data("designs", self.designs())
             .data("certified_order", self.proved())

@@ -1,7 +1,5 @@
 //! Crosstalk as a document: the attraction of every two words over all poses.
 
-use serde_json::{Value, json};
-
 use super::document::{Document, Drawing, Entries, Part, Table, rows};
 use super::files::{PAGE, REPORT};
 use super::page::Meetings;
@@ -55,8 +53,8 @@ pub fn document<'a>(set: &'a WordSet, found: &'a Crosstalk) -> Document<'a> {
 // One line an entry.
 #[rustfmt::skip]
 fn entries(set: &WordSet, found: &Crosstalk) -> Entries {
-    let numbers = |matrix: &Vec<Vec<f64>>| -> Value {
-        matrix.iter().map(|row| row.iter().copied().map(positive_zero).collect::<Value>()).collect()
+    let numbers = |matrix: &Vec<Vec<f64>>| -> Vec<Vec<f64>> {
+        matrix.iter().map(|row| row.iter().copied().map(positive_zero).collect()).collect()
     };
     let worst = found.strongest_wrong();
     let [all, strongest] = tables(set, found);
@@ -70,10 +68,10 @@ fn entries(set: &WordSet, found: &Crosstalk) -> Entries {
         .data("places_m", set.places.clone())
         .data("strongest_J", numbers(&found.strongest))
         .data("lower_J", found.lower.as_ref().map(numbers))
-        .data("poses", found.poses.iter().map(|row| row.iter().map(|q| json!(pose(q))).collect::<Value>()).collect::<Value>())
+        .data("poses", found.poses.iter().map(|row| row.iter().map(pose).collect()).collect::<Vec<Vec<_>>>())
         // For each word and its own mate, the deepest stable contact found besides the bond.
-        .data("traps_J", found.traps.iter().map(|it| json!(it.map(|it| positive_zero(it.0)))).collect::<Value>())
-        .data("trap_poses", found.traps.iter().map(|it| json!(it.map(|it| pose(&it.1)))).collect::<Value>())
+        .data("traps_J", found.traps.iter().map(|it| it.map(|it| positive_zero(it.0))).collect::<Vec<_>>())
+        .data("trap_poses", found.traps.iter().map(|it| it.map(|it| pose(&it.1))).collect::<Vec<_>>())
         .fact("bond_J", "weakest bond", found.weakest_bond().map(|bond| -bond.1)).digits(4).noted("depth")
         .fact("gap", "gap", found.gap()).digits(4).noted("over sampled poses")
         .fact("worst_J", "strongest wrong meeting", worst.map(|it| it.energy)).digits(4)

@@ -71,7 +71,7 @@ fn found(design: &Design, problem: &Problem, docking: &Docking, paths: Option<&P
         .data("unsolved", docking.unsolved)
         .table(ends(docking))
         .table(traps(problem, docking))
-        .data("time_to_bind_s", json!(times(docking)))
+        .data("time_to_bind_s", times(docking))
         .data("on_rate", rate("attachments", &OnRate::new(docking)))
         .fact("", "on-rate", describe_rate(&OnRate::new(docking))).in_view()
         .data("timing", timing(docking))

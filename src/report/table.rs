@@ -343,10 +343,6 @@ fn notes(found: &Found, request: &Request) -> Vec<String> {
     notes
 }
 
-fn interval(interval: &Interval) -> Value {
-    json!({"mean": interval.mean, "sd": interval.sd, "low": interval.low, "high": interval.high})
-}
-
 // One line an entry.
 #[rustfmt::skip]
 fn entries(about: &About, found: &Found, seed: u64) -> Entries {
@@ -368,22 +364,22 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .fact("runs", "runs", found.runs.len())
         .fact("time_s", "time", found.ensemble.settings.duration)
         .fact("step_s", "step", statistics.step)
-        .data("bonds", interval(&statistics.bonds))
-        .data("traps", interval(&statistics.traps))
+        .data("bonds", statistics.bonds)
+        .data("traps", statistics.traps)
         .fact("", "bonds", describe(&statistics.bonds)).in_view().noted("at the end, mean over the runs with its 95 % interval")
-        .data("contacts", interval(&statistics.contacts))
-        .data("trapped_tiles", interval(&statistics.trapped))
+        .data("contacts", statistics.contacts)
+        .data("trapped_tiles", statistics.trapped)
         .fact("", "traps", describe(&statistics.traps)).in_view().noted("other stable contacts at the end")
         .fact("", "contacts", describe(&statistics.contacts)).in_view().noted("stable contacts that follow from bonds to a common neighbour, or have less than 0.5 % of a bond's energy")
-        .data("target", json!({"share": interval(&found.target.share), "defects": found.target.defects.as_ref().map(interval), "outside": found.target.outside.as_ref().map(interval)}))
+        .data("target", json!({"share": found.target.share, "defects": found.target.defects, "outside": found.target.outside}))
         .fact("", "target", reached(about, found)).in_view().noted(aim(about, found))
-        .data("clusters", json!(statistics.clusters))
+        .data("clusters", &statistics.clusters)
         .fact("kinetic_kT", "kinetic energy", statistics.kinetic_kt).digits(3).noted("per degree of freedom, over kT; 0.5 in equilibrium")
         .data("kinetic_error", statistics.kinetic_error)
         .data("verdict", statistics.verdict.name())
         .fact("", "verdict", verdict(statistics)).in_view()
         .fact("energy_error", "energy error", statistics.energy_error).noted("missing energy, over the largest term of the balance")
-        .data("lifetimes", json!({"bonds": lifetime(&statistics.lifetimes[0]), "traps": lifetime(&statistics.lifetimes[1])}))
+        .data("lifetimes", json!({"bonds": statistics.lifetimes[0], "traps": statistics.lifetimes[1]}))
         .fact("", "bond lifetime", lasting(&statistics.lifetimes[0], found)).in_view().noted(lasting_is(found))
         .fact("", "trap lifetime", lasting(&statistics.lifetimes[1], found)).in_view().noted(lasting_is(found))
         .data("cut_off", cut_off(found))
@@ -489,13 +485,6 @@ fn settings(settings: &TableSettings) -> Value {
         all["correlation_s"] = Value::Null;
     }
     all
-}
-
-fn lifetime(lifetime: &Lifetime) -> Value {
-    json!({
-        "begun": lifetime.begun, "ended": lifetime.ended, "time_s": lifetime.time,
-        "mean_s": lifetime.mean, "interval_s": lifetime.interval,
-    })
 }
 
 fn cut_off(found: &Found) -> Value {

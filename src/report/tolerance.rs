@@ -8,7 +8,7 @@ use super::plots::chart::{Chart, Dimension, Look};
 use crate::figures::{share_to, share_to_tenths};
 use jobs::design::Design;
 use jobs::output::Command;
-use jobs::tolerance::{Outcome, Spread, Tolerance};
+use jobs::tolerance::{Outcome, Tolerance};
 use physics::landscape::Proportion;
 use physics::units::{plain, si};
 
@@ -110,22 +110,6 @@ fn share_json(share: &Proportion) -> Value {
     json!({"share": share.share(), "interval": interval(share)})
 }
 
-fn spread_json(spread: &Spread) -> Value {
-    let Spread {
-        nominal,
-        mean,
-        sd,
-        p05,
-        median,
-        p95,
-    } = spread;
-    let known = |x: &f64| x.is_finite().then_some(*x);
-    json!({
-        "nominal": known(nominal), "mean": known(mean), "sd": known(sd),
-        "p05": known(p05), "median": known(median), "p95": known(p95),
-    })
-}
-
 // One line an entry.
 #[rustfmt::skip]
 fn found_entries(design: &Design, found: &Tolerance) -> Entries {
@@ -138,19 +122,19 @@ fn found_entries(design: &Design, found: &Tolerance) -> Entries {
     let anew = found.anew.as_ref();
     entries(design)
         .data("seed", found.seed)
-        .data("errors", json!(found.making))
+        .data("errors", found.making)
         .data("draws", found.outcomes.len())
         .fact("works_share", "work", found.works.share()).viewed(within(&found.works)).in_view()
         .data("works", share_json(&found.works))
         .fact("bond_energy", "bond", bond.mean).viewed(spread).noted(from_to).in_view()
-        .data("bond_J", spread_json(bond))
-        .data("selectivity", json!(found.selectivity.as_ref().map(spread_json)))
+        .data("bond_J", bond)
+        .data("selectivity", found.selectivity)
         .table(reasons(found))
         .fact("trap_beats", "trap beats", beaten.share()).viewed(within(beaten))
             .noted(format!("deepest trap deeper than {} of the bond without errors", plain(*beats, 3))).in_view()
         .data("trap_beats", json!({"of_bond": beats, "share": beaten.share(), "interval": interval(beaten)}))
         .table(matters(found))
-        .data("explained", json!(found.explained))
+        .data("explained", found.explained)
         .table(flipped(found))
         .table(safer(found))
         .data("followed", json!({"states": found.followed[0], "of": found.followed[1]}))

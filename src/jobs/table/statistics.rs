@@ -8,10 +8,11 @@ use physics::table::TableSettings;
 use physics::table::contacts::Tie;
 use physics::table::run::{Life, Run};
 use physics::table::structures::{Shape, Structure};
+use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// A mean over runs with its 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Interval {
     /// The mean.
     pub mean: f64,
@@ -114,17 +115,20 @@ impl Verdict {
 pub const THERMAL: f64 = 0.1;
 
 /// How long bonds or traps last.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Lifetime {
     /// How many there were.
     pub begun: usize,
     /// How many ended.
     pub ended: usize,
     /// Their total time (s).
+    #[serde(rename = "time_s")]
     pub time: f64,
     /// Total time over number of ends (s); `None` if none ended.
+    #[serde(rename = "mean_s")]
     pub mean: Option<f64>,
     /// Its 95 % interval (s); the upper end is `None` if nothing bounds it.
+    #[serde(rename = "interval_s")]
     pub interval: [Option<f64>; 2],
 }
 

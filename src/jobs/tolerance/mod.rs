@@ -36,6 +36,7 @@ use physics::observer::Observer;
 use physics::order::Order;
 use physics::parallel;
 use physics::problem::Problem;
+use serde::Serialize;
 use well::Well;
 
 /// Traps are followed that are at least this share of the deepest one's depth deep, or all that attract if
@@ -122,7 +123,7 @@ impl Outcome {
 }
 
 /// The spread of a figure over the draws.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Without errors.
     pub nominal: f64,

@@ -8,6 +8,7 @@ use physics::kinetics::bond::Hold;
 use physics::kinetics::population::rows::{Census, Growth, Joints, Spreads};
 use physics::kinetics::population::{Crowd, PairRates};
 use physics::parallel;
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
@@ -21,18 +22,20 @@ const MOST_TILES: usize = 40_000;
 const LEAST_RUNS: usize = 8;
 
 /// A ring that chains can close to.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Closing {
     /// Number of its tiles.
     pub size: usize,
     /// The area (m^2) in which one free end would be as near to another as the chain's ends are.
+    #[serde(rename = "effective_area_m2")]
     pub area: f64,
     /// The rate (1/s) at which a chain of its tiles closes.
+    #[serde(rename = "closures_per_s")]
     pub rate: f64,
 }
 
 /// A mean number and its interval: 95 % over the runs, and the ends of the attachment rate's interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Mean {
     /// The mean.
     pub mean: f64,

@@ -13,6 +13,7 @@ pub use crate::plots::Drawing;
 
 use std::borrow::Cow;
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::braille::Braille;
@@ -186,8 +187,8 @@ impl Entries {
     }
 
     /// Adds data for programs under a key.
-    pub fn data(mut self, key: &'static str, value: impl Into<Value>) -> Self {
-        self.0.push(Entry::Data(key, value.into()));
+    pub fn data(mut self, key: &'static str, value: impl Serialize) -> Self {
+        self.0.push(Entry::Data(key, json!(value)));
         self
     }
 }

@@ -65,10 +65,10 @@ fn entries(spaced: &Spaced) -> Entries {
         .data("tilebind", env!("CARGO_PKG_VERSION"))
         // Poles in order; their positions along the face are in positions_m.
         .data("words", spaced.words.iter().map(|it| it.code(stands(spaced))).collect::<Vec<_>>())
-        .data("positions_m", json!(spaced.words.iter().map(SpacedWord::positions).collect::<Vec<_>>()))
+        .data("positions_m", spaced.words.iter().map(SpacedWord::positions).collect::<Vec<_>>())
         .fact("count", "words", spaced.words.len())
         // No bound is known, since positions are continuous.
-        .data("upper_bound", json!(null))
+        .data("upper_bound", ())
         .data("proved", false)
         .fact("gap", "gap", found.and_then(Crosstalk::gap)).digits(4).noted("over sampled poses")
         .fact("bond_J", "weakest bond", found.and_then(|it| it.weakest_bond()).map(|bond| -bond.1)).digits(4)
