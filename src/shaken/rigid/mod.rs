@@ -18,6 +18,7 @@ mod motion;
 mod mover;
 mod near;
 mod pair;
+mod pivot;
 mod rest;
 mod rim;
 mod short;

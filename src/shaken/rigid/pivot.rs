@@ -1,0 +1,129 @@
+//! The law of contact solved by pivots, for the few clusters on which sweeps go round in circles.
+//!
+//! With friction f = a - b, a and b not below 0, and s not below the size of the sliding, the law is a linear
+//! complementarity problem: of each of
+//!
+//! `n.v - l` and `p`, `t.v + s` and `a`, `s - t.v` and `b`, `mu p - a - b` and `s`
+//!
+//! both are at least 0 and one of them is 0 (Stewart and Trinkle 1996; in the plane two directions of friction
+//! are all there are). Lemke's method (Cottle, Pang and Stone 1992, The Linear Complementarity Problem,
+//! section 4.4) ends in a solution wherever contact without impulse is possible (Anitescu and Potra 1997),
+//! whatever the friction. Sweeps are not sure to: above some friction, a point's rub lifts its
+//! neighbour more than the neighbour's lifts it.
+
+/// Pivots per row at most.
+const PIVOTS: usize = 50;
+/// Elements below this share of the largest, which is of the order of 1, are rounding.
+const ROUNDING: f64 = 1e-11;
+
+/// Numbers w and z, none below 0, with `w = matrix z + offset` and one of each two equal to 0; returns z.
+/// `None` if there are none, or they are not found. The offset should be of the order of 1, like the matrix,
+/// of which this is the row-major list of rows.
+pub fn complementary(matrix: &[f64], offset: &[f64]) -> Option<Vec<f64>> {
+    let n = offset.len();
+    let worst = (0..n).min_by(|a, b| offset[*a].total_cmp(&offset[*b]))?;
+    if offset[worst] >= 0.0 {
+        return Some(vec![0.0; n]);
+    }
+    // `w - matrix z - z0 = offset`: columns of w, of z, of z0 and of the right-hand side.
+    let (auxiliary, right) = (2 * n, 2 * n + 1);
+    let width = right + 1;
+    let mut rows = vec![0.0; n * width];
+    for (k, row) in rows.chunks_mut(width).enumerate() {
+        row[k] = 1.0;
+        for (to, from) in row[n..].iter_mut().zip(&matrix[k * n..(k + 1) * n]) {
+            *to = -from;
+        }
+        row[auxiliary] = -1.0;
+        row[right] = offset[k];
+    }
+    let mut basic: Vec<usize> = (0..n).collect();
+    let (mut row, mut entering) = (worst, auxiliary);
+    for _ in 0..PIVOTS * n {
+        pivot(&mut rows, width, row, entering);
+        let leaving = std::mem::replace(&mut basic[row], entering);
+        if leaving == auxiliary {
+            let mut z = vec![0.0; n];
+            for (row, of) in rows.chunks(width).zip(&basic) {
+                if *of >= n {
+                    z[*of - n] = row[right].max(0.0);
+                }
+            }
+            return Some(z);
+        }
+        entering = (leaving + n) % (2 * n);
+        row = blocking(&rows, width, entering, &basic, auxiliary)?;
+    }
+    None
+}
+
+/// The row whose number is the first to become 0 as that of a column grows; of equal ones the auxiliary
+/// number's, else that with the largest element.
+fn blocking(
+    rows: &[f64],
+    width: usize,
+    column: usize,
+    basic: &[usize],
+    auxiliary: usize,
+) -> Option<usize> {
+    let mut best: Option<(usize, f64, f64)> = None;
+    for (k, row) in rows.chunks(width).enumerate() {
+        let by = row[column];
+        if by <= ROUNDING {
+            continue;
+        }
+        let ratio = row[width - 1].max(0.0) / by;
+        let is_better = best.is_none_or(|(of, least, size)| {
+            let equal = (ratio - least).abs() <= ROUNDING * (1.0 + least);
+            match equal {
+                true => basic[k] == auxiliary || (basic[of] != auxiliary && by > size),
+                false => ratio < least,
+            }
+        });
+        if is_better {
+            best = Some((k, ratio, by));
+        }
+    }
+    best.map(|it| it.0)
+}
+
+fn pivot(rows: &mut [f64], width: usize, row: usize, column: usize) {
+    let (before, rest) = rows.split_at_mut(row * width);
+    let (own, after) = rest.split_at_mut(width);
+    let by = 1.0 / own[column];
+    own.iter_mut().for_each(|it| *it *= by);
+    for other in before.chunks_mut(width).chain(after.chunks_mut(width)) {
+        let share = other[column];
+        if share != 0.0 {
+            for (to, from) in other.iter_mut().zip(&*own) {
+                *to -= share * from;
+            }
+            other[column] = 0.0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_are_at_least_zero_and_one_of_them_is() {
+        // Of Cottle, Pang and Stone's kind: positive definite, positive semidefinite, and copositive only.
+        let cases: [(&[f64], &[f64]); 3] = [
+            (&[2.0, 1.0, 1.0, 2.0], &[-5.0, -6.0]),
+            (&[1.0, -1.0, -1.0, 1.0], &[-1.0, 2.0]),
+            (&[1.0, 3.0, -1.0, 0.0], &[-2.0, 1.0]),
+        ];
+        for (matrix, offset) in cases {
+            let z = complementary(matrix, offset).unwrap();
+            for k in 0..2 {
+                let w = matrix[2 * k] * z[0] + matrix[2 * k + 1] * z[1] + offset[k];
+                assert!(w > -1e-12 && z[k] >= 0.0, "{w} {z:?}");
+                assert!((w * z[k]).abs() < 1e-12, "{w} {z:?}");
+            }
+        }
+        // `w = -z - 1` is never at least 0.
+        assert_eq!(complementary(&[-1.0], &[-1.0]), None);
+    }
+}
