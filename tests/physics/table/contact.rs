@@ -109,9 +109,11 @@ fn sliding_without_friction_keeps_energy() {
 fn energy_of_many_tiles_never_rises() {
     let (problem, crowd) = one_face(MagnetModel::Dipole);
     let depth = problem.depth();
-    let laws = [[0.3, 0.01], [1.0, 0.5], [0.0, 0.0], [0.0, 1.0], [0.3, 1.0]];
+    let laws = [[0.3, 0.01], [2.0, 0.5], [0.0, 0.0], [0.0, 1.0], [0.3, 1.0]];
     let mut missing = Vec::new();
-    for (seed, law) in (0..6).flat_map(|seed| laws.map(|law| (seed, law))) {
+    // In the last one points come back while tiles slide fast past each other.
+    let runs = (0..6).flat_map(|seed| laws.map(|law| (seed, law)));
+    for (seed, law) in runs.chain([(54, [0.0, 0.0])]) {
         let settings = TableSettings {
             walls: true,
             ..settings(6.0, law)
