@@ -2,6 +2,9 @@
 
 use std::fmt::Write;
 
+/// Names of this many letters are never shortened.
+const LEAST_NAME: usize = 12;
+
 /// Rows of equal length with their columns aligned.
 pub fn write_table<R: AsRef<[String]>>(text: &mut String, rows: &[R]) {
     let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
@@ -32,6 +35,7 @@ pub fn write_fitted(text: &mut String, rows: &[Vec<String>], columns: Option<usi
         text.push_str(&table);
         return;
     }
+    let rows = &with_short_names(rows, columns.unwrap_or(usize::MAX) / 3);
     let count = rows.first().map_or(0, Vec::len);
     let short: Vec<&[String]> = rows.iter().map(|row| &row[..count - 1]).collect();
     let mut table = String::new();
@@ -45,6 +49,22 @@ pub fn write_fitted(text: &mut String, rows: &[Vec<String>], columns: Option<usi
         true => text.push_str(&table),
         false => write_folded(text, rows, columns),
     }
+}
+
+/// The same rows with the middle of long names in the first column left out, so that the other columns
+/// have room; two names that differ at either end stay different.
+fn with_short_names(rows: &[Vec<String>], most: usize) -> Vec<Vec<String>> {
+    let mut rows = rows.to_vec();
+    for name in rows.iter_mut().filter_map(|row| row.first_mut()) {
+        let letters: Vec<char> = name.chars().collect();
+        if letters.len() > most.max(LEAST_NAME) {
+            let kept = most.max(LEAST_NAME) - 1;
+            let (start, end) = letters.split_at(kept.div_ceil(2));
+            let end = &end[end.len() - kept / 2..];
+            *name = start.iter().chain(&['…']).chain(end).collect();
+        }
+    }
+    rows
 }
 
 /// A table split into parts below each other to fit a terminal's width, each with the first column.
@@ -70,5 +90,19 @@ pub fn write_folded(text: &mut String, rows: &[Vec<String>], columns: Option<usi
         let part: Vec<Vec<String>> = rows.iter().map(part).collect();
         write_table(text, &part);
         start = end.max(start + 1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_names_leave_room_for_what_is_said_of_them() {
+        let name = |last: &str| format!("{}{last}", "a".repeat(300));
+        let row = |last: &str| vec![name(last), "0.5".to_owned(), "1.5".to_owned()];
+        let mut text = String::new();
+        write_fitted(&mut text, &[row("1"), row("2")], Some(40));
+        assert_eq!(text, "aaaaaa…aaaaa1  0.5  1.5\naaaaaa…aaaaa2  0.5  1.5\n");
     }
 }

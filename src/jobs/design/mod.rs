@@ -55,7 +55,7 @@ mod overlap;
 mod placement;
 mod potential;
 mod profile;
-mod quantity;
+pub(crate) mod quantity;
 mod reader;
 mod schema;
 mod shield;

@@ -302,7 +302,7 @@ impl Quantity {
 }
 
 /// A number without more zeros than are easily counted.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     match value.abs() {
         0.0 | 1e-5..1e15 => value.to_string(),
         _ => format!("{value:e}"),

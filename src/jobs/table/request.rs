@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::Wanted;
+use crate::design::quantity::short;
 use crate::design::{angle, frequency, length};
 use crate::request::{self, MotionOptions, Shard};
 use physics::table::{Linear, Orbital, TableSettings};
@@ -185,11 +186,14 @@ fn swing(
     let frequency = frequency(turns).filter(|it| *it > 0.0).ok_or(form)?;
     if amplitude > WIDEST_CIRCLE {
         let meant = match distance.trim().parse::<f64>() {
-            Ok(number) => format!(": did you mean \"{number} mm,{}\"?", after.trim()),
-            Err(_) => String::new(),
+            Ok(number) if number * 1e-3 <= WIDEST_CIRCLE => {
+                format!(": did you mean \"{number} mm,{}\"?", after.trim())
+            }
+            _ => String::new(),
         };
         return Err(format!(
-            "{what} has {has} of at most {WIDEST_CIRCLE} m, not {amplitude} m{meant}"
+            "{what} has {has} of at most {WIDEST_CIRCLE} m, not {} m{meant}",
+            short(amplitude)
         ));
     }
     if frequency > FASTEST_CIRCLE {
