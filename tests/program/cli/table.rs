@@ -380,7 +380,10 @@ fn wrong_tables_are_refused_with_their_fix() {
         (&[TILE, "--step", "1e-300"], "at least 1e-12"),
         (&[TILE, "--step", "1e-9"], "longer --step"),
         (&[TILE, "--orbital", "1,1e9"], "at most 1000 Hz"),
-        (&[TILE, "--orbital", "1e300,1e300"], "at most 1 m, not 1e300 m; "),
+        (
+            &[TILE, "--orbital", "1e300,1e300"],
+            "at most 1 m, not 1e300 m; ",
+        ),
         (&[TILE, "--linear", "0.01,5"], "linear shaking is A,F,ANGLE"),
         (&[TILE, "--linear", "5,5,0"], "did you mean \"5 mm,5,0\"?"),
         (&[TILE, "--table-friction", "-1"], "--table-friction"),
