@@ -44,8 +44,8 @@ pub(crate) fn fault(design: &Design, problem: &Problem) -> Option<String> {
     }
     (mates < 0.0 && own > WEAK * mates).then(|| {
         format!(
-            "the codes are not mates: they bind with {} % of the energy of mates; {help}",
-            physics::units::plain((100.0 * own / mates).max(0.0), 2)
+            "the codes are not mates: they bind with {} of the energy of mates; {help}",
+            physics::units::share_to((own / mates).max(0.0), 2)
         )
     })
 }

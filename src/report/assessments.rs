@@ -61,20 +61,18 @@ pub fn numbers<'a, Row>(
         let parts = parts.chain(bounds.map(|bound| format!("_{bound}")));
         for (k, part) in parts.enumerate() {
             let key = quantity.name(&part);
-            rows = rows.column(key, "", "", move |row| finite(quantity, of(row))[k]);
+            rows = rows.data(key, move |row| finite(quantity, of(row))[k]);
         }
     }
     let checks = |k: usize| move |row: &Row| Some(of(row)?.checks()?[k]);
-    rows.column("caged", "", "", move |row| Some(of(row)?.is_caged()))
-        .column("target_energy_J", "", "", move |row| {
-            Some(of(row)?.target_energy)
-        })
-        .column("seed", "", "", move |row| Some(of(row)?.seed))
-        .column("sha256", "", "", move |row| Some(of(row)?.sha256.clone()))
+    rows.data("caged", move |row| Some(of(row)?.is_caged()))
+        .data("target_energy_J", move |row| Some(of(row)?.target_energy))
+        .data("seed", move |row| Some(of(row)?.seed))
+        .data("sha256", move |row| Some(of(row)?.sha256.clone()))
         // The check of the barriers by moving tiles.
-        .column("barriers_checked", "", "", checks(0))
-        .column("barriers_contradicted", "", "", checks(1))
-        .column("barriers_overestimated", "", "", checks(2))
+        .data("barriers_checked", checks(0))
+        .data("barriers_contradicted", checks(1))
+        .data("barriers_overestimated", checks(2))
 }
 
 /// Adds a figure of designs for people, or two that share a place, with bounds or a word that says

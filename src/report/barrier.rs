@@ -125,9 +125,9 @@ fn ends<'a>(design: &'a Design, query: &Request, answer: &Answer) -> Drawing<'a>
             .iter()
             .map(|(q, energy, name)| (*q, format!("{name}: {}", si(*energy, "J", 4))));
         let numbers = rows(&all)
-            .column("at", "", "", |(.., name)| *name)
-            .column("pose", "", "", |(q, ..)| *q)
-            .column("energy_J", "", "", |(_, energy, _)| *energy)
+            .data("at", |(.., name)| *name)
+            .data("pose", |(q, ..)| *q)
+            .data("energy_J", |(_, energy, _)| *energy)
             .table("");
         let told: Vec<_> = told.collect();
         poses::draw(("poses", title), &design.pair, &told, numbers.csv(), sheet)

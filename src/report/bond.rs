@@ -11,7 +11,7 @@ use jobs::design::Design;
 use jobs::output::Command;
 use physics::kinetics::bond::Docking;
 use physics::kinetics::bond::volume::NO_PLAY;
-use physics::units::si;
+use physics::units::{change_with, si};
 
 /// The files of the command.
 pub const FILES: Command = Command {
@@ -120,31 +120,31 @@ fn found_entries(design: &Design, held: &Held) -> Entries {
 fn states(held: &Held) -> Table {
     let closed = |it: &HeldState| match it.closed_error() {
         // It is valid only for kT far below the depth.
-        Some(error) if error.abs() < 10.0 => format!("{:+.1} %", 100.0 * error),
+        Some(error) if error.abs() < 10.0 => change_with(error, 1),
         Some(_) => "useless".to_owned(),
         None => "-".to_owned(),
     };
     rows(held.states.clone())
         .column("state", "state", "kind of state", |it| it.name.clone())
-        .column("pose", "", "", |it| it.configuration)
+        .data("pose", |it| it.configuration)
         .column("energy_J", "energy", "", |it| it.energy).digits(4)
         .column("copies", "copies", "copies by symmetry", |it| it.copies)
-        .column("moving_copies", "", "", |it| it.moving_copies)
+        .data("moving_copies", |it| it.moving_copies)
         .column("depth_kT", "depth", "energy in kT", |it| it.docking.depth).viewed(|it| in_kt(it.docking.depth))
         .column("docking_cost_kT", "docking", "what it costs to find the state, -ln(rho Z0 s / 2 \
             pi)", |it| it.docking.cost)
             .viewed(|it| in_kt(it.docking.cost))
         .column("ln_K", "ln K", "depth minus docking cost", |it| it.docking.ln_k(1.0)).viewed(|it| number(it.docking.ln_k(1.0)))
-        .column("Z0_m2_rad", "", "", |it| it.docking.volume.value)
-        .column("Z0_error_m2_rad", "", "", |it| it.docking.volume.error)
+        .data("Z0_m2_rad", |it| it.docking.volume.value)
+        .data("Z0_error_m2_rad", |it| it.docking.volume.error)
         // The basin contains the configurations that can be reached from the state below this
         // energy.
-        .column("basin_below_J", "", "", |it| it.level)
-        .column("basin_cut", "", "", |it| it.is_cut)
+        .data("basin_below_J", |it| it.level)
+        .data("basin_cut", |it| it.is_cut)
         // The same with only the part below half the state's depth: if it differs, K depends on
         // where "bound" ends.
-        .column("docking_cost_half_depth_kT", "", "", |it| it.inner.cost)
-        .column("closed_form_Z0_m2_rad", "", "", |it| it.closed.map(|it| it.volume.value))
+        .data("docking_cost_half_depth_kT", |it| it.inner.cost)
+        .data("closed_form_Z0_m2_rad", |it| it.closed.map(|it| it.volume.value))
         .column("closed_form_error", "closed form", "error of the analytic estimate", HeldState::closed_error).viewed(closed)
         .table("states").titled("States", "").in_view().in_file("states")
 }
@@ -157,11 +157,11 @@ fn by_kt(held: &Held) -> Table {
         states.clone().zip(dockings).map(move |(state, docking)| (*kt, &state.name[..], docking))
     });
     rows(at)
-        .column("kT_J", "", "", |(kt, ..)| *kt)
-        .column("state", "", "", |(_, state, _)| *state)
-        .column("depth_kT", "", "", |(.., docking)| docking.depth)
-        .column("docking_cost_kT", "", "", |(.., docking)| docking.cost)
-        .column("ln_K", "", "", |(.., docking)| docking.ln_k(1.0))
+        .data("kT_J", |(kt, ..)| *kt)
+        .data("state", |(_, state, _)| *state)
+        .data("depth_kT", |(.., docking)| docking.depth)
+        .data("docking_cost_kT", |(.., docking)| docking.cost)
+        .data("ln_K", |(.., docking)| docking.ln_k(1.0))
         .table("over_kT").in_data().in_file("over-kt")
 }
 

@@ -13,7 +13,7 @@ use jobs::design::Design;
 use jobs::output::Command;
 use physics::dynamics::docking::OnRate;
 use physics::potential::MagnetModel;
-use physics::units::{plain, si};
+use physics::units::{plain, share_with, si};
 
 /// The files of the command.
 pub const FILES: Command = Command {
@@ -306,7 +306,7 @@ fn strength(found: &Calibration) -> String {
 /// The error of the model for each measured quantity.
 fn errors(fitted: &Residuals, held_out: &Residuals) -> Table {
     let describe = |part: &Residuals, k: usize| match part.rms[k].zip(part.relative[k]) {
-        Some((rms, off)) => format!("{} ({:.2} %)", si(rms, QUANTITIES[k].1, 3), 100.0 * off),
+        Some((rms, off)) => format!("{} ({})", si(rms, QUANTITIES[k].1, 3), share_with(off, 2)),
         None => "none".to_owned(),
     };
     let known = |k: &usize| fitted.rms[*k].is_some() || held_out.rms[*k].is_some();

@@ -3,10 +3,9 @@
 use serde_json::{Value, json};
 
 use crate::document::{Entries, Table, rows};
-use crate::figures::share_to;
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::yields::{Count, Mean, Outcome, Request, Rows};
-use physics::units::{duration, plain, si};
+use physics::units::{duration, plain, share_to, si};
 
 /// The bonds and the shares of tiles, in a sentence.
 pub(crate) fn answer(name: &str, request: &Request, best: &Outcome, built: &Rows) -> String {

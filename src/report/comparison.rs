@@ -13,6 +13,7 @@ use jobs::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, Thoroughness, capture_range, ranking};
 use jobs::output::Command;
 use physics::landscape::minimax::Ordering;
+use physics::units::share_to;
 
 /// The files of the command.
 pub const FILES: Command = Command {
@@ -133,9 +134,9 @@ impl Comparison {
         notes.push(format!(
             "brackets: certified bounds; percentages: of {} far starts, with 95 % intervals; \
              offset, gap and tilt: how misaligned a tile touching head-on may be and still slide \
-             downhill into the bond, to within {} % of its depth",
+             downhill into the bond, to within {} of its depth",
             self.settings.survey.far_starts.unwrap_or(0),
-            100.0 * capture_range::ENERGY_SHARE,
+            share_to(capture_range::ENERGY_SHARE, 1),
         ));
         if self.designs.iter().any(has_estimates) {
             notes.push(ESTIMATES.to_owned());
@@ -271,9 +272,9 @@ impl Comparison {
     /// One row per design, best first.
     pub fn table(&self) -> Table {
         let ranked = rows(self.designs.iter().zip(1_usize..))
-            .column("rank", "", "", |(_, rank)| *rank)
-            .column("name", "", "", |(one, _)| one.name.clone())
-            .column("model", "", "", |(one, _)| one.model.clone());
+            .data("rank", |(_, rank)| *rank)
+            .data("name", |(one, _)| one.name.clone())
+            .data("model", |(one, _)| one.model.clone());
         numbers(ranked, |(one, _)| Some(*one))
             .table("compare")
             .in_csv("compare")

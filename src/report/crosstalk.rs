@@ -113,14 +113,14 @@ fn table(set: &WordSet, found: &Crosstalk, all: Vec<StrongestContact>) -> Table 
     };
     rows(all)
         .column("faces", "faces", "the two faces", |it| met(set, found, it)).in_view()
-        .column("first", "", "", |it| face(it, 0))
-        .column("second", "", "", |it| face(it, 1))
-        .column("first_code", "", "", |it| codes[it.faces[0]].clone())
-        .column("second_code", "", "", |it| codes[it.faces[1]].clone())
+        .data("first", |it| face(it, 0))
+        .data("second", |it| face(it, 1))
+        .data("first_code", |it| codes[it.faces[0]].clone())
+        .data("second_code", |it| codes[it.faces[1]].clone())
         .column("lower_J", "no lower than", "proved", |it| it.lower).digits(4)
         .column("upper_J", "energy", "lowest energy found", |it| positive_zero(it.energy)).digits(4)
         .column("pose", "x, y (mm), angle", "of the second face's tile in the first one's frame", |it| it.pose)
-        .column("meeting", "", "", kind)
+        .data("meeting", kind)
         .table("meetings")
 }
 

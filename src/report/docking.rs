@@ -196,23 +196,23 @@ fn traps(problem: &Problem, docking: &Docking) -> Table {
 pub fn runs(docking: &Docking) -> Table {
     let velocity = |axis: usize| move |run: &&DockingRun| run.start.motion.velocity[axis];
     rows(&docking.runs)
-        .column("run", "", "", |run| run.index)
-        .column("pose", "", "at the start", |run| run.start.motion.configuration)
-        .column("vx_m_per_s", "", "", velocity(0))
-        .column("vy_m_per_s", "", "", velocity(1))
-        .column("spin_rad_per_s", "", "", velocity(2))
-        .column("orientation_rad", "", "relative to the bond, at the start", |run| run.start.orientation)
-        .column("speed_m_per_s", "", "at the start", |run| run.start.speed)
-        .column("end", "", "", |run| paths::ending(&run.end))
-        .column("trap", "", "number of the trap", |run| match run.end {
+        .data("run", |run| run.index)
+        .data("pose", |run| run.start.motion.configuration) // at the start
+        .data("vx_m_per_s", velocity(0))
+        .data("vy_m_per_s", velocity(1))
+        .data("spin_rad_per_s", velocity(2))
+        .data("orientation_rad", |run| run.start.orientation) // relative to the bond, at the start
+        .data("speed_m_per_s", |run| run.start.speed) // at the start
+        .data("end", |run| paths::ending(&run.end))
+        .data("trap", |run| match run.end {
             End::Trapped { trap } => trap,
             _ => None,
-        })
-        .column("time_to_bind_s", "", "", |run| match run.end {
+        }) // number of the trap
+        .data("time_to_bind_s", |run| match run.end {
             End::Bound { since } => Some(since),
             _ => None,
         })
-        .column("end_pose", "", "at the end", |run| run.last.motion.configuration)
+        .data("end_pose", |run| run.last.motion.configuration) // at the end
         .table("runs")
         .in_csv("runs")
 }
@@ -220,14 +220,12 @@ pub fn runs(docking: &Docking) -> Table {
 /// `map.csv`: one cell of the map per row.
 pub fn chances(map: &DockingMap) -> Table {
     rows(&map.cells)
-        .column("orientation_bounds_rad", "", "", |it| it.orientation)
-        .column("speed_bounds_m_per_s", "", "", |it| it.speed)
-        .column("matched", "", "", |it| it.matched.count)
-        .column("runs", "", "", |it| it.matched.of)
-        .column("share", "", "", |it| it.matched.share())
-        .column("share_interval", "", "95 %", |it| {
-            [it.matched.low, it.matched.high]
-        })
+        .data("orientation_bounds_rad", |it| it.orientation)
+        .data("speed_bounds_m_per_s", |it| it.speed)
+        .data("matched", |it| it.matched.count)
+        .data("runs", |it| it.matched.of)
+        .data("share", |it| it.matched.share())
+        .data("share_interval", |it| [it.matched.low, it.matched.high]) // 95 %
         .table("map")
         .in_csv("map")
 }
@@ -236,13 +234,13 @@ pub fn chances(map: &DockingMap) -> Table {
 pub fn trajectory(snapshots: &[Snapshot]) -> Table {
     let velocity = |axis: usize| move |at: &&Snapshot| at.motion.velocity[axis];
     rows(snapshots)
-        .column("time_s", "", "", |at| at.time)
-        .column("pose", "", "", |at| at.motion.configuration)
-        .column("vx_m_per_s", "", "", velocity(0))
-        .column("vy_m_per_s", "", "", velocity(1))
-        .column("spin_rad_per_s", "", "", velocity(2))
-        .column("potential_J", "", "", |at| at.potential)
-        .column("kinetic_J", "", "", |at| at.kinetic)
+        .data("time_s", |at| at.time)
+        .data("pose", |at| at.motion.configuration)
+        .data("vx_m_per_s", velocity(0))
+        .data("vy_m_per_s", velocity(1))
+        .data("spin_rad_per_s", velocity(2))
+        .data("potential_J", |at| at.potential)
+        .data("kinetic_J", |at| at.kinetic)
         .table("trajectory")
         .in_csv("trajectory")
 }

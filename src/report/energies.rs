@@ -61,13 +61,13 @@ fn table(design: &Design, found: &[Felt]) -> Table {
     rows(found)
         .column("pose", "x, y (mm), angle", "of the moving tile in the fixed tile's frame", |it| it.pose)
         .column("energy_J", "energy", "0 far apart", |it| it.energy).digits(4)
-        .column("force_N", "", "", |it| json!(it.force.map(positive_zero))).without_csv()
+        .data("force_N", |it| json!(it.force.map(positive_zero))).without_csv()
         .column("_N", "force", "on the moving tile", |it| libm::hypot(it.force[0], it.force[1])).in_view()
         .column("force_x_N", "along x", "", |it| it.force[0]).in_csv()
         .column("force_y_N", "along y", "", |it| it.force[1]).in_csv()
         .column("torque_Nm", "torque", "about the moving tile's reference point", |it| it.torque)
         .column("clearance_m", "clearance", "negative where the tiles overlap", |it| it.clearance)
         .column("free", "free", "whether the tiles do not overlap", |it| it.is_free)
-        .column("model", "", "magnet model", |_| model)
+        .data("model", |_| model) // magnet model
         .table("poses")
 }

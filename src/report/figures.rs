@@ -3,7 +3,7 @@
 use jobs::comparison::quantity::{Measure, Reading};
 use jobs::comparison::{Assessment, Estimate, Quantity};
 use physics::landscape::Proportion;
-use physics::units::{plain, prefix_of, si, si_range};
+use physics::units::{plain, prefix_of, share_with, si, si_range};
 
 /// Significant digits of energies.
 const DIGITS: usize = 4;
@@ -41,7 +41,7 @@ fn text(measure: Measure, reading: &Reading, unit: Option<f64>) -> String {
         (Measure::Energy, _) => energy(&estimate, unit),
         (Measure::Length, _) => format!("{:.1}", 1e3 * value),
         (Measure::Angle, _) => format!("{:.1}", value.to_degrees()),
-        (Measure::Share, _) => share_to_tenths(value),
+        (Measure::Share, _) => share_with(value, 1),
         (Measure::Ratio, _) => format!("{value:.3}"),
         (Measure::Count, _) => format!("{value}"),
     };
@@ -114,22 +114,10 @@ impl Shown {
     }
 }
 
-/// `4.25 %`: a share with this number of significant digits.
-pub fn share_to(value: f64, digits: usize) -> String {
-    format!("{} %", plain(100.0 * value, digits))
-}
-
-/// `4.3 %`: a share to a tenth of a per cent.
-pub fn share_to_tenths(value: f64) -> String {
-    format!("{:.1} %", 100.0 * value)
-}
-
 /// `42 %`; two decimals below one percent.
 pub fn share(value: f64) -> String {
-    match 100.0 * value {
-        percent if percent > 0.0 && percent < 1.0 => format!("{percent:.2} %"),
-        percent => format!("{percent:.0} %"),
-    }
+    let percent = 100.0 * value;
+    share_with(value, if percent > 0.0 && percent < 1.0 { 2 } else { 0 })
 }
 
 /// `56 % (53-59)`, with the interval.

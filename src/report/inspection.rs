@@ -19,7 +19,7 @@ use physics::configuration::Configuration;
 use physics::potential::MagnetModel;
 use physics::tile::Tile;
 use physics::tile::profile::SHALLOWEST;
-use physics::units::si;
+use physics::units::{share_to, si};
 
 /// The files of the command.
 pub const FILES: Command = Command {
@@ -45,10 +45,10 @@ fn answer(design: &Design, inspection: &Inspection) -> String {
     };
     match bond.energy < 0.0 {
         true if inspection.is_negligible() => format!(
-            "{}: faces {faces} do not bind: their magnets cancel to less than {} % of what they \
+            "{}: faces {faces} do not bind: their magnets cancel to less than {} of what they \
              reach while the tiles slide",
             design.name,
-            100.0 * NEGLIGIBLE
+            share_to(NEGLIGIBLE, 1)
         ),
         true => format!(
             "{}: faces {faces} bind with {} {magnets}; pulling straight apart takes {}",
@@ -222,13 +222,13 @@ fn faces(name: &'static str, tile: &Tile) -> Vec<Face> {
 #[rustfmt::skip]
 fn table(key: &'static str, faces: Vec<Face>) -> Table {
     rows(faces)
-        .column("tile", "", "", |it| it.tile).in_csv()
+        .data("tile", |it| it.tile).in_csv()
         .column("name", "face", "of which tile", |it| it.name.clone()).viewed(|it| format!("{} {}", it.tile, it.name))
         .column("length_m", "length", "of its base line", |it| it.length)
-        .column("code", "", "", |it| it.code.clone())
+        .data("code", |it| it.code.clone())
         .column("magnets_m", "magnets", "outward poles and their positions, counter-clockwise", |it| json!(it.magnets)).without_csv().viewed(Face::describe_magnets)
         .column("heights_m", "shape", "distance of the line from the base line", |it| json!(it.heights)).without_csv().viewed(Face::describe_shape)
-        .column("height_bounds_m", "", "", |it| it.heights).in_csv()
+        .data("height_bounds_m", |it| it.heights).in_csv()
         .table(key)
 }
 

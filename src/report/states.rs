@@ -89,7 +89,7 @@ fn columns<'a>(catalogue: &'a Catalogue, states: impl IntoIterator<Item = Row<'a
     };
     rows(states)
         .column("id", "number", "", |it| it.state.id)
-        .column("kind", "", "", |it| kind(it.state.kind))
+        .data("kind", |it| kind(it.state.kind))
         .shown("kind", "", |it| if it.state.kind == StateKind::Bond { "bond" } else { "trap" })
         .column("class", "class", "lowest id among the states that symmetries map onto this one", |it| it.state.class)
         .column("copies", "copies", "copies by symmetry", |it| it.copies)
@@ -97,19 +97,19 @@ fn columns<'a>(catalogue: &'a Catalogue, states: impl IntoIterator<Item = Row<'a
         .column("energy_J", "energy", "of the magnets, 0 far apart", |it| it.state.energy)
         // To the nearest lower state or to free.
         .column("escape_J", "escape", "the lowest barrier out", |it| it.escape.as_ref().map(Barrier::forward)).in_csv()
-        .column("escape_to", "", "", |it| it.way_out().map(|way| way.to)).in_csv()
+        .data("escape_to", |it| it.way_out().map(|way| way.to)).in_csv()
         .shown("leads to", "end of the lowest path", leads_to)
         .column("capture", "captured", "fraction of the far starts that end in any of them", |it| it.capture).sampled()
         .column("attracting", "attracting", "magnet pairs close together", |it| it.state.attracting)
         .column("repelling", "repelling", "magnet pairs close together", |it| it.state.repelling)
         .column("faces", "faces", "in contact", Row::pairs).in_csv()
-        .column("faces", "", "", |it| json!(it.faces)).in_json()
+        .data("faces", |it| json!(it.faces)).in_json()
         .column("block_energy_J", "energy of blocks", "in place of point dipoles", |it| it.state.block_energy)
         .column("dipole_error_J", "error of dipoles", "", |it| it.state.dipole_error()).in_csv()
         .column("name", "state", "letters by depth", |it| it.name)
         // It is proved that there is no way out.
         .column("caged", "caged", "", Row::is_caged).in_csv()
-        .column("escape", "", "", escape).in_json()
+        .data("escape", escape).in_json()
 }
 
 /// All states; for point dipoles with the energy of the blocks they represent, and the difference.
@@ -158,25 +158,25 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
 fn barrier_columns<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Rows<'a, &'a Barrier> {
     let file = |it: &&Barrier| it.has_way().then(|| pathway_file(it));
     rows(barriers)
-        .column("from", "", "", |it| it.from)
-        .column("to", "", "", |it| it.to)
+        .data("from", |it| it.from)
+        .data("to", |it| it.to)
         .column("saddle_energy_J", "saddle", "highest energy on the best path found", |it| it.saddle_energy)
         // Null if no path is known, as is the file of the pathway, relative to the report.
-        .column("saddle_pose", "", "", |it| it.has_way().then_some(it.saddle)).in_json()
-        .column("lower_J", "", "proved bound of the saddle's energy", |it| it.bounds.lower)
-        .column("upper_J", "", "proved bound of the saddle's energy", |it| it.bounds.upper)
+        .data("saddle_pose", |it| it.has_way().then_some(it.saddle)).in_json()
+        .data("lower_J", |it| it.bounds.lower) // proved bound of the saddle's energy
+        .data("upper_J", |it| it.bounds.upper) // proved bound of the saddle's energy
         .column("forward_J", "barrier", "saddle above the start", |it| it.forward()).beside()
         .column("reverse_J", "barrier back", "saddle above the end", |it| it.reverse()).beside()
         // Lowest and highest saddle energy over repeated runs; null for a single run.
-        .column("spread_bounds_J", "", "", |it| it.spread.map(|spread| [spread.0, spread.1])).in_csv()
-        .column("spread_J", "", "", |it| json!(it.spread)).in_json()
-        .column("pose", "", "of the saddle", |it| it.saddle).in_csv()
-        .column("pathway", "", "", file)
+        .data("spread_bounds_J", |it| it.spread.map(|spread| [spread.0, spread.1])).in_csv()
+        .data("spread_J", |it| json!(it.spread)).in_json()
+        .data("pose", |it| it.saddle).in_csv() // of the saddle
+        .data("pathway", file)
         // It is proved that there is no path; the saddle energy is then infinite.
-        .column("caged", "", "", |it| it.bounds.caged)
+        .data("caged", |it| it.bounds.caged)
         // Work against the energy along the pathway and back, and its length.
         .column("work_J", "work", "sum of all climbs", |it| it.work().map(|work| work[0]))
-        .column("reverse_work_J", "", "", |it| it.work().map(|work| work[1]))
+        .data("reverse_work_J", |it| it.work().map(|work| work[1]))
         .column("length_m", "length", "of the path", |it| it.length())
 }
 

@@ -18,7 +18,7 @@ use physics::configuration::Configuration;
 use physics::landscape::results::SAME_ENERGY;
 use physics::landscape::{Barrier, Catalogue, Kind, LeftOut, Place, Proportion};
 use physics::order::Order;
-use physics::units::{si, si_range};
+use physics::units::{share_with, si, si_range};
 
 /// Number of traps listed individually.
 const LISTED: usize = 4;
@@ -75,8 +75,8 @@ fn models(design: &Design, analysis: &Analysis) -> String {
     let worst = off.iter().find(|(_, share)| *share >= 0.99 * most);
     if let Some((state, share)) = worst.filter(|_| most > DOUBTFUL) {
         lines += &format!(
-            "! dipoles are off by {:.0} % at {}: real magnets are {bodies} (--model cuboid)\n",
-            100.0 * share,
+            "! dipoles are off by {} at {}: real magnets are {bodies} (--model cuboid)\n",
+            share_with(*share, 0),
             analysis.catalogue.name_of(Place::State(state.id)),
         );
     }

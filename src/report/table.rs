@@ -5,7 +5,6 @@ use serde_json::{Value, json};
 use crate::assembly::grown_with_errors;
 use crate::chains;
 use crate::document::{Document, Drawing, Entries, Part, Table, rows};
-use crate::figures::share_to;
 use crate::gsd::{self, Particle};
 use crate::page::Crowd;
 use crate::plots::chart::{Chart, Dimension, Look, Point};
@@ -21,7 +20,7 @@ use physics::table::TableSettings;
 use physics::table::contacts::Tie;
 use physics::table::run::{ACCOUNTED, Run};
 use physics::table::{Mover, Sample};
-use physics::units::{duration, plain, si};
+use physics::units::{duration, plain, share_to, si};
 
 /// The document of a table.
 pub fn document<'a>(
@@ -540,15 +539,15 @@ fn sizes(found: &Found) -> Table {
 fn course(found: &Found) -> Table {
     let ends = |of: fn(&Moment) -> Interval| move |it: &Moment| { let at = of(it); at.low.zip(at.high).map(|(low, high)| [low.max(0.0), high]) };
     rows(found.statistics.moments.clone())
-        .column("time_s", "", "since the start", |it| it.time)
-        .column("bonds", "", "mean over the runs", |it| it.bonds.mean)
-        .column("bonds_interval", "", "95 %", ends(|it| it.bonds))
-        .column("traps", "", "mean over the runs", |it| it.traps.mean)
-        .column("traps_interval", "", "95 %", ends(|it| it.traps))
-        .column("in_target", "", "tiles in structures that are the target, mean over the runs", |it| it.in_target.mean)
-        .column("in_target_interval", "", "95 %", ends(|it| it.in_target))
-        .column("largest", "", "tiles of the largest cluster, mean over the runs", |it| it.largest.mean)
-        .column("largest_interval", "", "95 %", ends(|it| it.largest))
+        .data("time_s", |it| it.time) // since the start
+        .data("bonds", |it| it.bonds.mean) // mean over the runs
+        .data("bonds_interval", ends(|it| it.bonds)) // 95 %
+        .data("traps", |it| it.traps.mean) // mean over the runs
+        .data("traps_interval", ends(|it| it.traps)) // 95 %
+        .data("in_target", |it| it.in_target.mean) // tiles in structures that are the target, mean over the runs
+        .data("in_target_interval", ends(|it| it.in_target)) // 95 %
+        .data("largest", |it| it.largest.mean) // tiles of the largest cluster, mean over the runs
+        .data("largest_interval", ends(|it| it.largest)) // 95 %
         .table("over_time")
         .in_file("course")
 }
@@ -562,14 +561,14 @@ fn samples(found: &Found) -> impl Iterator<Item = (&Run, &Sample)> {
 #[rustfmt::skip]
 fn energy(found: &Found) -> Table {
     rows(samples(found))
-        .column("run", "", "", |(run, _)| run.index)
-        .column("time_s", "", "", |(_, at)| at.time)
-        .column("kinetic_J", "", "", |(_, at)| at.kinetic)
-        .column("potential_J", "", "of magnets, and of steady fans", |(_, at)| at.potential)
-        .column("work_J", "", "", |(_, at)| at.account.work)
-        .column("contact_loss_J", "", "", |(_, at)| at.account.contact_loss)
-        .column("drag_loss_J", "", "", |(_, at)| at.account.drag_loss)
-        .column("table_loss_J", "", "lost to friction on the table", |(_, at)| at.account.table_loss)
+        .data("run", |(run, _)| run.index)
+        .data("time_s", |(_, at)| at.time)
+        .data("kinetic_J", |(_, at)| at.kinetic)
+        .data("potential_J", |(_, at)| at.potential) // of magnets, and of steady fans
+        .data("work_J", |(_, at)| at.account.work)
+        .data("contact_loss_J", |(_, at)| at.account.contact_loss)
+        .data("drag_loss_J", |(_, at)| at.account.drag_loss)
+        .data("table_loss_J", |(_, at)| at.account.table_loss) // lost to friction on the table
         .table("energy")
         .in_csv("energy")
 }
@@ -581,14 +580,14 @@ fn bonds(found: &Found) -> Table {
     let kind = |tile: usize| kinds[of_tiles[tile]].name.clone();
     let lives = found.runs.iter().flat_map(|run| run.lives.iter().map(move |life| (run, life)));
     rows(lives)
-        .column("run", "", "", |(run, _)| run.index)
-        .column("first", "", "a tile", |(_, life)| life.tiles[0])
-        .column("second", "", "the tile in contact with it", |(_, life)| life.tiles[1])
-        .column("first_kind", "", "", |(_, life)| kind(life.tiles[0]))
-        .column("second_kind", "", "", |(_, life)| kind(life.tiles[1]))
-        .column("tie", "", "bond, trap or contact", |(_, life)| life.tie.name())
-        .column("from_s", "", "", |(_, life)| life.from)
-        .column("to_s", "", "empty if it lasts to the end", |(_, life)| life.to)
+        .data("run", |(run, _)| run.index)
+        .data("first", |(_, life)| life.tiles[0]) // a tile
+        .data("second", |(_, life)| life.tiles[1]) // the tile in contact with it
+        .data("first_kind", |(_, life)| kind(life.tiles[0]))
+        .data("second_kind", |(_, life)| kind(life.tiles[1]))
+        .data("tie", |(_, life)| life.tie.name()) // bond, trap or contact
+        .data("from_s", |(_, life)| life.from)
+        .data("to_s", |(_, life)| life.to) // empty if it lasts to the end
         .table("held")
         .in_csv("bonds")
 }
@@ -599,10 +598,10 @@ fn clusters(found: &Found) -> Table {
         sizes.map(move |equal| (run.index, at.time, equal[0], equal.len()))
     });
     rows(counted)
-        .column("run", "", "", |it| it.0)
-        .column("time_s", "", "", |it| it.1)
-        .column("size", "", "tiles in a cluster", |it| it.2)
-        .column("count", "", "clusters of this size", |it| it.3)
+        .data("run", |it| it.0)
+        .data("time_s", |it| it.1)
+        .data("size", |it| it.2) // tiles in a cluster
+        .data("count", |it| it.3) // clusters of this size
         .table("cluster_sizes")
         .in_csv("clusters")
 }
@@ -620,16 +619,16 @@ fn places(found: &Found) -> Table {
         move |it: &(usize, f64, usize, Mover)| it.3.reference_velocity(&found.crowd)[axis]
     };
     rows(tiles)
-        .column("run", "", "", |it| it.0)
-        .column("time_s", "", "", |it| it.1)
-        .column("tile", "", "", |it| it.2)
-        .column("kind", "", "", |it| kinds[it.3.kind].name.clone())
-        .column("x", "", "of the reference point", at(0))
-        .column("y", "", "of the reference point", at(1))
-        .column("theta", "", "", at(2))
-        .column("vx", "", "of the reference point", velocity(0))
-        .column("vy", "", "of the reference point", velocity(1))
-        .column("omega", "", "", velocity(2))
+        .data("run", |it| it.0)
+        .data("time_s", |it| it.1)
+        .data("tile", |it| it.2)
+        .data("kind", |it| kinds[it.3.kind].name.clone())
+        .data("x", at(0)) // of the reference point
+        .data("y", at(1)) // of the reference point
+        .data("theta", at(2))
+        .data("vx", velocity(0)) // of the reference point
+        .data("vy", velocity(1)) // of the reference point
+        .data("omega", velocity(2))
         .table("trajectory")
         .in_csv("trajectory")
 }

@@ -6,7 +6,7 @@ use jobs::inspection::{Fit, Hold, Inspection, NEGLIGIBLE};
 use jobs::workshop::{CLEARANCE, open_pockets};
 use physics::order::Order;
 use physics::tile::{Magnet, Tile};
-use physics::units::{plain, si};
+use physics::units::{plain, share_to, si};
 
 /// Weight of a gram (N).
 pub const GRAM: f64 = 9.806_65e-3;
@@ -89,7 +89,7 @@ pub fn fits(found: &Inspection) -> Table {
     let [slides, tilt] = [most(slide), most(|it| it.tilt)];
     rows(found.fits.iter().enumerate())
         .column("fit", "fit", "", |(k, _)| if *k == 0 { "bond" } else { "trap" }).viewed(|(k, it)| name(*k, it))
-        .column("slid_m", "", "", |(_, it)| it.slid)
+        .data("slid_m", |(_, it)| it.slid)
         .column("pose", "x, y (mm), angle", "of the moving tile", |(_, it)| it.pose).in_data()
         .column("energy_J", "energy", "of the magnets, 0 far apart", |(_, it)| it.energy).digits(DIGITS)
             .viewed(|(_, it)| energy(found, it.energy))
@@ -100,9 +100,9 @@ pub fn fits(found: &Inspection) -> Table {
         .table("fits")
         .in_file("fits")
         .titled("What ends each fit of the target faces", format!(
-            "slid along each other in contact; forces of the magnets alone; none: below {} % of the \
+            "slid along each other in contact; forces of the magnets alone; none: below {} of the \
              strongest in the column",
-            100.0 * NEGLIGIBLE
+            share_to(NEGLIGIBLE, 1)
         ))
 }
 
@@ -134,10 +134,10 @@ pub fn models<'a>(design: &'a Design, found: &'a Inspection) -> Table {
         .column("model", "magnets as", "", |it| it.model.name()).viewed(|it| it.model.plural(&design.pair).to_owned())
         .column("energy_J", "energy", "with target faces in contact", |it| it.energy).viewed(|it| energy(found, it.energy))
         .column("contact_N", "pull at contact", "along the face's normal", |it| it.contact).viewed(|it| pull(found, it.contact))
-        .column("along_N", "", "", |it| it.along)
-        .column("torque_Nm", "", "", |it| it.torque)
+        .data("along_N", |it| it.along)
+        .data("torque_Nm", |it| it.torque)
         .column("pull_off_N", "pull-off", "largest force on a straight path", |it| it.pull_off).viewed(|it| pull_off(found, it))
-        .column("pull_off_gap_m", "", "", |it| it.pull_off_gap)
+        .data("pull_off_gap_m", |it| it.pull_off_gap)
         .table("models")
         .in_file("models")
 }

@@ -5,12 +5,11 @@ use serde_json::{Value, json};
 use super::document::{Document, Drawing, Entries, Table, entries, rows};
 use super::files::{PAGE, REPORT};
 use super::plots::chart::{Chart, Dimension, Look};
-use crate::figures::{share_to, share_to_tenths};
 use jobs::design::Design;
 use jobs::output::Command;
 use jobs::tolerance::{Outcome, Tolerance};
 use physics::landscape::Proportion;
-use physics::units::{plain, si};
+use physics::units::{plain, share_to, share_with, si};
 
 /// The files of the command.
 pub const FILES: Command = Command {
@@ -154,10 +153,10 @@ fn found_entries(design: &Design, found: &Tolerance) -> Entries {
 #[rustfmt::skip]
 fn reasons(found: &Tolerance) -> Table {
     rows(found.reasons.clone())
-        .column("reason", "", "", |it| it.name).in_data()
+        .data("reason", |it| it.name)
         .column("label", "reason", "why draws do not work; a draw can have several", |it| it.label.clone()).in_view()
         .column("share", "share", "of the draws", |it| it.share.share()).viewed(|it| within(&it.share))
-        .column("interval", "", "", |it| interval(&it.share))
+        .data("interval", |it| interval(&it.share))
         .table("reasons").titled("Why draws do not work", "")
 }
 
@@ -167,9 +166,9 @@ fn matters(found: &Tolerance) -> Table {
         .column("magnet", "magnet", "a magnet, or a face for gaps; counted along the face", |it| it.magnet.clone())
         .column("error", "error", "kind of error", |it| it.error)
         .column("share_of_variance", "of the bond", "share of the variance of the bond's energy, to first order", |it| it.of_bond)
-            .viewed(move |it| share_to_tenths(it.of_bond))
+            .viewed(move |it| share_with(it.of_bond, 1))
         .column("share_of_selectivity_variance", "of selectivity", "share of the variance of ln(selectivity), to first order", |it| it.of_selectivity)
-            .viewed(move |it| it.of_selectivity.map_or("-".to_owned(), share_to_tenths))
+            .viewed(move |it| it.of_selectivity.map_or("-".to_owned(), |it| share_with(it, 1)))
         .column("sd_J", "spread", "standard deviation of the bond's energy by it alone", |it| it.sd)
         .table("matters").titled("What matters most", "").in_file("matters").listing(LISTED)
 }
@@ -181,7 +180,7 @@ fn flipped(found: &Tolerance) -> Table {
         .column("bond_J", "bond", "energy of the bond with it, without other errors", |it| it.bond).digits(4)
         .column("noticed", "noticed", "share of draws in which the bond with it is weaker than 95 % of those without flips", |it| it.noticed.share())
             .viewed(|it| within(&it.noticed))
-        .column("interval", "", "", |it| interval(&it.noticed))
+        .data("interval", |it| interval(&it.noticed))
         .table("flipped").titled("One magnet glued in the wrong way round", "").in_file("flipped")
 }
 
@@ -194,7 +193,7 @@ fn safer(found: &Tolerance) -> Table {
         .column("selectivity", "selectivity", "without errors", |it| Some(it.nominal.selectivity()).filter(|it| it.is_finite()))
         .column("sd_J", "spread", "standard deviation of the bond's energy", |it| it.bond.sd)
         .column("works", "work", "share of the draws that work", |it| it.works.share()).viewed(|it| within(&it.works))
-        .column("interval", "", "", |it| interval(&it.works))
+        .data("interval", |it| interval(&it.works))
         .column("works_unchanged", "unchanged", "share of the same draws of the design itself", |it| it.unchanged.share())
             .viewed(|it| within(&it.unchanged))
         .table("safer").titled("Other insets and pitches, with the same errors", "").in_file("safer")
@@ -204,12 +203,12 @@ fn safer(found: &Tolerance) -> Table {
 fn draws(found: &Tolerance) -> Table {
     let least = found.making.least_selectivity();
     rows(found.outcomes.iter().copied().enumerate())
-        .column("draw", "", "number of the draw", |(k, _)| *k)
-        .column("bond_J", "", "energy of the bond", |(_, it)| it.bond)
-        .column("trap_J", "", "energy of the deepest trap", |(_, it)| it.trap)
-        .column("selectivity", "", "the bond's depth over the trap's", |(_, it)| Some(it.selectivity()).filter(|it| it.is_finite()))
-        .column("flipped", "", "whether a magnet is flipped", |(_, it)| it.is_flipped)
-        .column("works", "", "whether the pair works", move |(_, it)| it.works(least))
+        .data("draw", |(k, _)| *k) // number of the draw
+        .data("bond_J", |(_, it)| it.bond) // energy of the bond
+        .data("trap_J", |(_, it)| it.trap) // energy of the deepest trap
+        .data("selectivity", |(_, it)| Some(it.selectivity()).filter(|it| it.is_finite())) // the bond's depth over the trap's
+        .data("flipped", |(_, it)| it.is_flipped) // whether a magnet is flipped
+        .data("works", move |(_, it)| it.works(least)) // whether the pair works
         .table("draws").in_csv("draws")
 }
 

@@ -55,8 +55,8 @@ fn entries(found: &Verified) -> Entries {
 
 fn folders(found: &Verified) -> Table {
     rows(&found.folders)
-        .column("folder", "", "", |it| it.0.clone())
-        .column("design", "", "", |it| it.1.clone())
+        .data("folder", |it| it.0.clone())
+        .data("design", |it| it.1.clone())
         .table("folders")
         .in_data()
 }

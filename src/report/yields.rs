@@ -18,7 +18,7 @@ use physics::kinetics::OVERDAMPED;
 use physics::kinetics::population::mixture::Mixture;
 use physics::kinetics::population::{Crowd, MOST_STATES};
 use physics::order::Order;
-use physics::units::{duration, plain, si};
+use physics::units::{duration, plain, share_with, si};
 
 /// The files of the command.
 pub const FILES: Command = Command {
@@ -57,10 +57,10 @@ pub fn document<'a>(design: &'a Design, request: &'a Request, found: &'a Yields)
         title: format!("Yield of {}", design.name),
         answer: answer(design, request, found),
         remarks: vec![format!(
-            "({} covering {:.0} % of {:.2} m2, in which they meet as points would in {}; intervals: \
+            "({} covering {} of {:.2} m2, in which they meet as points would in {}; intervals: \
              {interval})",
             tiles(&found.crowd),
-            100.0 * request.coverage,
+            share_with(request.coverage, 0),
             found.crowd.table,
             format!("{} m2", plain(found.crowd.area, 3)),
         )],
@@ -215,31 +215,30 @@ fn by_kt(request: &Request, found: &Yields) -> Table {
     let describe = |[mean, error]: [f64; 2]| format!("{:.1} +- {:.1} %", 100.0 * mean, 200.0 * error);
     rows(request.kts.iter().map(|kt| (*kt, found.at(*kt))))
         .column("kT_J", "kT", "effective energy of shaking", |(kt, _)| *kt)
-        .column("why_not", "", "", |(_, at)| at.err().flatten().map(ToString::to_string)).in_json()
+        .data("why_not", |(_, at)| at.err().flatten().map(ToString::to_string)).in_json()
         .column("yield", "bound", "fraction of all pairs in the bond at the end, with its interval", of(|it| it.bound))
             .viewed(|(_, at)| at.map_or("-".to_owned(), |it| within(it.bound, it.interval)))
-        .column("yield_interval", "", "", |(_, at)| at.ok().map(|it| it.interval))
+        .data("yield_interval", |(_, at)| at.ok().map(|it| it.interval))
         .column("trapped", "in traps", "fraction of all pairs in traps at the end", of(|it| it.trapped)).share()
-        .column("yield_method", "", "", |(_, at)| at.ok().map(method)).in_json()
-        .column("mean_numbers_error", "", "", known(|it| it.off)).in_json()
-        .column("yield_difference_equations", "", "from the equations for mean numbers, which \
-            hold for many tiles", known(|it| it.smooth))
+        .data("yield_method", |(_, at)| at.ok().map(method)).in_json()
+        .data("mean_numbers_error", known(|it| it.off)).in_json()
+        .data("yield_difference_equations", known(|it| it.smooth)) // from the equations for mean numbers, which hold for many tiles
         .column("yield_equilibrium", "in equilibrium", "fraction in the bond in equilibrium", known(|it| it.equilibrium)).share()
         .column("yield_simulated", "simulated", "by simulation, with two standard errors", move |row| json!(simulated(row).map(entry)))
             .viewed(move |row| simulated(row).map_or("-".to_owned(), describe)).without_csv()
         .column("mean_time_to_bond_s", "to bond", "mean time until a free tile binds", of(|it| it.mean_times[0])).viewed(mean_time(0))
-        .column("mean_time_to_bond_at_least_s", "", "", known(|it| it.least_times.map(|it| it[0]))).in_json()
+        .data("mean_time_to_bond_at_least_s", known(|it| it.least_times.map(|it| it[0]))).in_json()
         .column("mean_time_out_of_bond_s", "out of bond", "mean time until a bond breaks", of(|it| it.mean_times[1])).viewed(mean_time(1))
-        .column("mean_time_out_of_bond_at_least_s", "", "", known(|it| it.least_times.map(|it| it[1]))).in_json()
-        .column("states", "", "", inner(states)).in_json()
-        .column("attachments_elsewhere", "", "", |(_, at)| at.ok().map(|it| it.attached.elsewhere)).in_json()
-        .column("attachments_unsolved", "", "", |(_, at)| at.ok().map(|it| it.attached.unsolved)).in_json()
-        .column("docked_s", "", "total duration of the docking runs", of(|it| it.attached.time)).in_json()
-        .column("apart_s", "", "... for which the tiles were apart", of(|it| it.attached.apart)).in_json()
-        .column("free_area_m2", "", "area of a pair that is apart, by which rates are multiplied", of(|it| it.attached.area)).in_json()
-        .column("over_time", "", "", inner(course)).in_json()
-        .column("table", "", "", inner(crowds)).in_json()
-        .column("rows", "", "", |(_, at)| at.ok().and_then(|it| it.rows.as_ref()).map(chains::of_setting)).in_json()
+        .data("mean_time_out_of_bond_at_least_s", known(|it| it.least_times.map(|it| it[1]))).in_json()
+        .data("states", inner(states)).in_json()
+        .data("attachments_elsewhere", |(_, at)| at.ok().map(|it| it.attached.elsewhere)).in_json()
+        .data("attachments_unsolved", |(_, at)| at.ok().map(|it| it.attached.unsolved)).in_json()
+        .data("docked_s", of(|it| it.attached.time)).in_json() // total duration of the docking runs
+        .data("apart_s", of(|it| it.attached.apart)).in_json() // ... for which the tiles were apart
+        .data("free_area_m2", of(|it| it.attached.area)).in_json() // area of a pair that is apart, by which rates are multiplied
+        .data("over_time", inner(course)).in_json()
+        .data("table", inner(crowds)).in_json()
+        .data("rows", |(_, at)| at.ok().and_then(|it| it.rows.as_ref()).map(chains::of_setting)).in_json()
         .table("settings")
         .in_file("settings")
 }
@@ -271,10 +270,10 @@ fn states(outcome: &Outcome) -> Table {
         .column("attachments", "attached", "docking runs that attached to it", |it| it.attachments).viewed(|it| attached(it))
         .column("on_m2_per_s", "on", "rate of capture of a pair, times its free area", |it| it.on)
             .viewed(move |it| limited(it, it.on, it.on_interval, &|rate| format!("{rate:.1e} m²/s")))
-        .column("on_interval_m2_per_s", "", "", |it| it.on_interval)
+        .data("on_interval_m2_per_s", |it| it.on_interval)
         .column("off_per_s", "off", "escape rate", |it| it.off)
             .viewed(move |it| limited(it, it.off, it.off_interval, &|rate| describe(rate, Unit::Of("/s"), 2)))
-        .column("off_interval_per_s", "", "", |it| it.off_interval).in_json()
+        .data("off_interval_per_s", |it| it.off_interval).in_json()
         .column("depth_kT", "depth", "energy in kT", |it| it.depth)
         .column("ln_K", "ln K", "logarithm of binding constant / concentration", |it| it.ln_k)
             .viewed(|it| format!("{:.1}", it.ln_k))
@@ -347,7 +346,7 @@ fn crowds(outcome: &Outcome) -> Table {
             "fraction of all pairs in the bond",
             |it| it.2,
         )
-        .column("exact", "", "", |it| it.3)
+        .data("exact", |it| it.3)
         .in_json()
         .table("table")
         .in_file("yield")

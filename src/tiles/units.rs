@@ -43,6 +43,21 @@ pub fn plain(value: f64, digits: usize) -> String {
     }
 }
 
+/// `4.25 %`: a share with this many significant digits.
+pub fn share_to(share: f64, digits: usize) -> String {
+    format!("{} %", plain(100.0 * share, digits))
+}
+
+/// `4.3 %`: a share with this many decimals.
+pub fn share_with(share: f64, decimals: usize) -> String {
+    format!("{:.decimals$} %", 100.0 * share)
+}
+
+/// `+4.3 %`: a relative change with this many decimals.
+pub fn change_with(change: f64, decimals: usize) -> String {
+    format!("{:+.decimals$} %", 100.0 * change)
+}
+
 /// Units of time (s), ascending: its length, its name, and the number of it from which on the next
 /// one is used.
 const SPANS: [(f64, &str, f64); 5] = [

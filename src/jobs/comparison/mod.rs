@@ -28,6 +28,7 @@ use physics::landscape::minimum::Known;
 use physics::landscape::{Barrier, Completeness, Proportion, SaddleBounds, State, StateKind};
 use physics::observer::Observer;
 use physics::potential::MagnetModel;
+use physics::units::share_with;
 
 pub use capture_range::CaptureRange;
 pub use quantity::{Estimate, Quantity};
@@ -237,11 +238,11 @@ impl Assessment {
         }
         let none_came_in = self.far_starts > 0 && self.captured == 0;
         none_came_in.then(|| {
-            let most = 100.0 * Proportion::new(0, self.far_starts).high;
+            let most = share_with(Proportion::new(0, self.far_starts).high, 1);
             let starts = self.far_starts;
             (
                 1,
-                format!("none of {starts} far starts reached the bond (at most {most:.1} % do)"),
+                format!("none of {starts} far starts reached the bond (at most {most} do)"),
             )
         })
     }

@@ -26,7 +26,7 @@ use physics::kinetics::rates::{MeshRates, RateSettings, RatesError, rates_on};
 use physics::observer::Observer;
 use physics::parallel;
 use physics::problem::Problem;
-use physics::units::{duration, plain};
+use physics::units::{duration, plain, share_to};
 
 /// Number of mean exit times after which a moving tile is abandoned.
 const PATIENCE: f64 = 30.0;
@@ -218,10 +218,7 @@ pub struct PoseExit {
 /// The sentence of a first result, on a mesh with this estimated relative error.
 fn so_far(result: &str, error: f64) -> String {
     match error.is_finite() {
-        true => format!(
-            "so far {result} (mesh error about {} %)",
-            plain(100.0 * error, 1)
-        ),
+        true => format!("so far {result} (mesh error about {})", share_to(error, 1)),
         false => format!("so far {result} (error of the mesh unknown)"),
     }
 }

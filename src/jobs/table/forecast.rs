@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
 use std::time::Instant;
 
 use physics::observer::Observer;
-use physics::units::duration;
+use physics::units::{duration, share_with};
 
 /// The time (s) after which the whole is forecast, and the whole that is worth telling.
 const AFTER: f64 = 10.0;
@@ -54,10 +54,10 @@ fn describe(passed: f64, share: f64) -> Option<String> {
     let whole = passed / share;
     (whole.is_finite() && whole > WORTH_TELLING).then(|| {
         format!(
-            "after {}, {:.1} % of the work is done: expect some {} in all; fewer --runs or tiles and a shorter \
+            "after {}, {} of the work is done: expect some {} in all; fewer --runs or tiles and a shorter \
              --time take less, and --shard shares the runs among machines",
             duration(passed, 2),
-            100.0 * share,
+            share_with(share, 1),
             duration(whole, 2)
         )
     })

@@ -119,11 +119,11 @@ impl Docking {
     #[getter]
     fn traps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let traps = rows(&self.found.traps)
-            .column("pose", "", "", |trap| trap.configuration)
-            .column("energy_J", "", "", |trap| trap.energy)
-            .column("share", "", "", |trap| trap.caught.share())
-            .column("share_low", "", "", |trap| trap.caught.low)
-            .column("share_high", "", "", |trap| trap.caught.high);
+            .data("pose", |trap| trap.configuration)
+            .data("energy_J", |trap| trap.energy)
+            .data("share", |trap| trap.caught.share())
+            .data("share_low", |trap| trap.caught.low)
+            .data("share_high", |trap| trap.caught.high);
         table::array(py, &traps.table("traps"))
     }
 

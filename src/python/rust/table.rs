@@ -94,10 +94,10 @@ pub fn grid<'py>(
 /// The points of a pathway.
 pub fn pathway<'py>(py: Python<'py>, pathway: &Pathway) -> PyResult<Bound<'py, PyAny>> {
     let points = rows(pathway)
-        .column("s_m", "", "", |point| point.s)
-        .column("pose", "", "", |point| point.configuration)
-        .column("energy_J", "", "", |point| point.energy)
-        .column("clearance_m", "", "", |point| point.clearance);
+        .data("s_m", |point| point.s)
+        .data("pose", |point| point.configuration)
+        .data("energy_J", |point| point.energy)
+        .data("clearance_m", |point| point.clearance);
     array(py, &points.table(""))
 }
 
@@ -115,7 +115,7 @@ pub fn of_csv(text: &str) -> Table {
                 _ => text.into(),
             },
         };
-        table = table.column(name.to_owned(), "", "", cell);
+        table = table.data(name.to_owned(), cell);
     }
     table.table("")
 }

@@ -259,7 +259,7 @@ fn tiles(assembly: &Assembly) -> Table {
     };
     rows(built.set.tiles.iter().enumerate())
         .column("name", "tile", "", |it: &Row| it.1.name.clone())
-        .column("faces", "", "", faces)
+        .data("faces", faces)
         .column("grown", count[0], count[1], move |it| counts[it.0]).in_view()
         .column("north", "north", "the word of the face, read counter-clockwise", face(0)).in_view()
         .column("east", "east", "the word of the face, read counter-clockwise", face(1)).in_view()
@@ -289,7 +289,7 @@ fn bonds(assembly: &Assembly) -> Table {
         .column("strength", "strength", "of the glue", |it| it.1.strength)
         .column("energy_J", "bond", "flush and aligned, as used by the engines", |it| -built.matrix.bond(it.0)).digits(4)
         .column("depth_kT", "depth", "of the bond, in kT", move |it| kt.map(|kt| built.matrix.bond(it.0) / kt))
-        .column("glues", "", "", glues)
+        .data("glues", glues)
         .table("bonds")
         .titled("Bonds", "")
         .listing(LISTED)
@@ -308,12 +308,12 @@ fn slid<'a>(assembly: &'a Assembly, all: Vec<&'a Slid>) -> Table {
         .column("first", "first", "a face", |it| assembly.face(it.faces[0]))
         .column("second", "second", "the face that it meets", |it| assembly.face(it.faces[1]))
         .column("slide", "slid by", "places", move |it| slide(it))
-        .column("slide_m", "", "", move |it| positive_zero(f64::from(slide(it)) * pitch))
+        .data("slide_m", move |it| positive_zero(f64::from(slide(it)) * pitch))
         .column("energy_J", "energy", "of the deepest slid contact that holds", |it| it.energy()).digits(4)
         .column("energy_kT", "depth", "in kT", move |it| depth(it)).viewed(move |it| view(it))
         .column("holds_alone", "holds alone", "whether it holds a tile alone: depth above Gmc", move |it| holds(it))
-        .column("slides_to_aligned", "", "", |it| it.captured[0])
-        .column("slides_to_slid", "", "", |it| it.captured[1])
+        .data("slides_to_aligned", |it| it.captured[0])
+        .data("slides_to_slid", |it| it.captured[1])
         .table("slid")
 }
 
@@ -329,12 +329,12 @@ fn pairs(assembly: &Assembly) -> Table {
         Some((name, bond, -built.matrix.bond(bond), rest))
     });
     rows(met)
-        .column("design", "", "", |it| format!("designs/{}.toml", it.0))
-        .column("word", "", "", |it| assembly.face(it.1))
-        .column("faces_J", "", "", |it| it.2)
-        .column("other_faces_J", "", "", |it| it.3)
-        .column("tiles_J", "", "", |it| it.2 + it.3)
-        .column("tiles_kT", "", "", move |it| kt.map(|kt| (it.2 + it.3) / kt))
+        .data("design", |it| format!("designs/{}.toml", it.0))
+        .data("word", |it| assembly.face(it.1))
+        .data("faces_J", |it| it.2)
+        .data("other_faces_J", |it| it.3)
+        .data("tiles_J", |it| it.2 + it.3)
+        .data("tiles_kT", move |it| kt.map(|kt| (it.2 + it.3) / kt))
         .table("pairs")
 }
 
@@ -369,11 +369,11 @@ fn energies(assembly: &Assembly) -> Table {
     let matrix = &assembly.built.matrix;
     let faces = 0..matrix.energies.len();
     let head = rows(faces.clone())
-        .column("face", "", "", |i| assembly.face(*i))
-        .column("code", "", "", |i| matrix.code(*i).to_string());
+        .data("face", |i| assembly.face(*i))
+        .data("code", |i| matrix.code(*i).to_string());
     let table = faces.fold(head, |table, j| {
         let key = assembly.face(j) + "_J";
-        table.column(key, "", "", move |i| matrix.energies[*i][j])
+        table.data(key, move |i| matrix.energies[*i][j])
     });
     table.table("matrix").in_csv("matrix")
 }

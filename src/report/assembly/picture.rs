@@ -118,9 +118,9 @@ pub(super) fn grown(
     });
     let names = names.filter(|_| kinds.len() > 1);
     let numbers = rows(&grown.tiles)
-        .column("x", "", "", |it| it.0.0)
-        .column("y", "", "", |it| it.0.1)
-        .column("tile", "", "", |it| set.tiles[*it.1].name.clone());
+        .data("x", |it| it.0.0)
+        .data("y", |it| it.0.1)
+        .data("tile", |it| set.tiles[*it.1].name.clone());
     let composition = Composition {
         name: "grown".to_owned(),
         title: title.to_owned(),

@@ -1,12 +1,11 @@
 //! The text of an assembly's summary.
 
-use crate::figures::share_to_tenths;
 use jobs::assembly::built::{MOST_MEETINGS, Shaken, Verdict as Growth};
 use jobs::assembly::choice::{Choice, Verdict};
 use jobs::assembly::kinetic::Growth as Kinetic;
 use jobs::assembly::slides;
 use jobs::assembly::{Assembly, Growing, SIDES, Tau, TileSet, TileType, lattice};
-use physics::units::{plain, si, si_range};
+use physics::units::{plain, share_with, si, si_range};
 
 /// Largest number of reasons given why nothing attaches to the seed.
 const MOST_REASONS: usize = 6;
@@ -68,10 +67,10 @@ pub(super) fn headline(assembly: &Assembly) -> String {
         Growth::Slow => "too hard: growth does not finish",
     };
     format!(
-        "{what}; at kT = {} and {:.1} % coverage Gse (a bond) is {} kT and Gmc (docking) {:.2} kT; \
+        "{what}; at kT = {} and {} coverage Gse (a bond) is {} kT and Gmc (docking) {:.2} kT; \
          shaking is {verdict}",
         si(shaken.shaking.kt, "J", 3),
-        100.0 * shaken.shaking.coverage,
+        share_with(shaken.shaking.coverage, 1),
         match shaken.gse {
             ..1e4 => format!("{:.2}", shaken.gse),
             _ => plain(shaken.gse, 3),
@@ -210,11 +209,11 @@ pub(super) fn known(assembly: &Assembly) -> Vec<String> {
     });
     let mismatch = match built.strongest_wrong() {
         Some((i, j, energy)) => format!(
-            "strongest aligned mismatch: {} on {}, {} ({:.0} % of a bond)",
+            "strongest aligned mismatch: {} on {}, {} ({} of a bond)",
             assembly.face(i),
             assembly.face(j),
             si(energy, "J", 4),
-            -100.0 * energy / built.unit
+            share_with(-energy / built.unit, 0)
         ),
         None => "no aligned mismatch attracts".to_owned(),
     };
@@ -300,8 +299,8 @@ fn slid(assembly: &Assembly) -> Option<String> {
         )
     });
     Some(format!(
-        "{whose} {deepest}{held}; {:.0} % of the tiles that bind from a slid start remain slid",
-        100.0 * slid.share
+        "{whose} {deepest}{held}; {} of the tiles that bind from a slid start remain slid",
+        share_with(slid.share, 0)
     ))
 }
 
@@ -429,7 +428,7 @@ fn found(assembly: &Assembly) -> Option<String> {
 
 /// How much deeper bonds are between whole tiles, from the smallest to the largest difference.
 fn whole(ends: [f64; 2]) -> String {
-    let [least, most] = ends.map(|share| share_to_tenths(share.abs()));
+    let [least, most] = ends.map(|share| share_with(share.abs(), 1));
     // A difference below a tenth of a per cent is ignored.
     let told = match (ends[0] < -5e-4, ends[1] > 5e-4) {
         (true, true) => format!("from {least} shallower to {most} deeper"),

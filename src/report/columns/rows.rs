@@ -66,6 +66,15 @@ impl<'a, Row> Rows<'a, Row> {
         self
     }
 
+    /// Adds a column for programs alone: its key, and its value in a row.
+    pub fn data<C: Into<Cell>>(
+        self,
+        key: impl Into<Cow<'static, str>>,
+        get: impl Fn(&Row) -> C + 'a,
+    ) -> Self {
+        self.column(key, "", "", get)
+    }
+
     /// Adds a column for people alone: its name, its meaning, and its value in a row.
     pub fn shown<C: Into<Cell>>(
         self,

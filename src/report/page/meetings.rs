@@ -203,10 +203,10 @@ impl Meetings {
         let pairs = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
         let met = pairs.filter_map(|(i, j)| Some((i, j, self.energies[i][j]?, shares[i][j]?)));
         let numbers = rows(met)
-            .column("first", "", "", |it| self.names[it.0].clone())
-            .column("second", "", "", |it| self.names[it.1].clone())
-            .column("energy_J", "", "", |it| it.2)
-            .column("share", "", "", |it| it.3);
+            .data("first", |it| self.names[it.0].clone())
+            .data("second", |it| self.names[it.1].clone())
+            .data("energy_J", |it| it.2)
+            .data("share", |it| it.3);
         Matrix {
             name: "crosstalk",
             title: self.title.clone(),

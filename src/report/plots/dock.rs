@@ -11,6 +11,7 @@ use super::style::INK;
 use super::{Figure, Sheet};
 use jobs::design::Design;
 use physics::dynamics::docking::DockingMap;
+use physics::units::share_with;
 
 const WIDTH: f64 = 860.0;
 /// Space around a plot (pixels): top, right, bottom, left.
@@ -52,13 +53,13 @@ pub fn chances(
     let levels = LEVELS.into_iter().rev().filter(|level| *level < most);
     let marks = [most, 0.0].into_iter().chain(levels).map(|level| Marked {
         at: level / most,
-        text: format!("{:.0} %", 100.0 * level),
+        text: share_with(level, 0),
         is_crossed: true,
     });
     let said = format!(
         "cells: {fewest} to {many} runs each; lines: chances averaged over neighbouring cells, the \
-         thick one at {:.0} %",
-        100.0 * LEVELS[0]
+         thick one at {}",
+        share_with(LEVELS[0], 0)
     );
     let panel = Panel::alone(
         |width| 0.68 * width,

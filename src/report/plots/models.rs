@@ -10,7 +10,7 @@ use super::style::{Anchor, COLOURS, INK, LABEL, minus};
 use crate::csv::table;
 use physics::landscape::approach::ModelCurves;
 use physics::potential::MagnetModel;
-use physics::units::{plain, si};
+use physics::units::{plain, share_with, si};
 
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 390.0;
@@ -78,7 +78,7 @@ pub fn composed<'a>(scene: &Scene<'a>, curves: &'a ModelCurves) -> Composition<'
 fn distance([dipoles, blocks]: [f64; 2]) -> String {
     let off = (dipoles - blocks).abs() / blocks.abs();
     match dipoles / blocks {
-        _ if off < 1.0 => format!("{:.1} % off", 100.0 * off),
+        _ if off < 1.0 => format!("{} off", share_with(off, 1)),
         times if times > 0.0 && times.is_finite() => format!("{} times as much", plain(times, 2)),
         _ => "without any likeness".to_owned(),
     }

@@ -4,14 +4,13 @@ use serde_json::{Value, json};
 
 use super::told::{SCOPE, digits, finite};
 use crate::document::{Document, Entries, Entry, Table, entries, rows};
-use crate::figures::{share_to, share_to_tenths};
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;
 use jobs::rates::PoseExit;
 use physics::dynamics::exits::ExitRuns;
 use physics::kinetics::rates::exit::MeshExit;
 use physics::kinetics::{OVERDAMPED, Way};
-use physics::units::{duration, si};
+use physics::units::{duration, share_to, share_with, si};
 
 /// The document of an exit, with the check by moving tiles if requested.
 pub fn document<'a>(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> Document<'a> {
@@ -24,8 +23,8 @@ pub fn document<'a>(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) 
              first with probability {}, free first with {}",
             design.name,
             duration(exit.mean(), known_digits(exit)),
-            share_to_tenths(finest.bound),
-            share_to_tenths(1.0 - finest.bound),
+            share_with(finest.bound, 1),
+            share_with(1.0 - finest.bound, 1),
         ),
         remarks: vec![format!(
             "(kT = {}, drag {} /s: D = {}; mean exit time times D = {}; bound: U < {} in the \
@@ -61,8 +60,8 @@ fn found_entries(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> 
         // Nothing is proved about an exit: the key stays for those who read it.
         .data("mean_exit_bounds_s", Value::Null)
         .group("exits", Entries::default()
-            .fact("bound", "bound first", finest.bound).viewed(share_to_tenths(finest.bound)).noted("probability")
-            .fact("free", "free first", 1.0 - finest.bound).viewed(share_to_tenths(1.0 - finest.bound)).noted("probability"))
+            .fact("bound", "bound first", finest.bound).viewed(share_with(finest.bound, 1)).noted("probability")
+            .fact("free", "free first", 1.0 - finest.bound).viewed(share_with(1.0 - finest.bound, 1)).noted("probability"))
         .fact("kt_J", "kT", asked.kt).noted(format!("drag {} /s", exit.drag))
         .fact("drag_per_s", "", exit.drag)
         .fact("start", "start", asked.start).noted("x (mm), y (mm), theta")
@@ -84,10 +83,10 @@ fn meshes(exit: &PoseExit) -> Table {
     rows(&exit.found.meshes)
         .column("unknowns", "unknowns", "of the mesh, each finer than the one before", |mesh| mesh.unknowns)
         .column("mean_exit_s", "mean exit time", "", |mesh| mesh.time / exit.diffusion)
-        .column("bound", "bound first", "probability", |mesh| mesh.bound).viewed(|mesh| share_to_tenths(mesh.bound))
-        .column("error", "error of flows", "estimated, relative", |mesh| mesh.error).viewed(|mesh| share_to_tenths(mesh.error))
+        .column("bound", "bound first", "probability", |mesh| mesh.bound).viewed(|mesh| share_with(mesh.bound, 1))
+        .column("error", "error of flows", "estimated, relative", |mesh| mesh.error).viewed(|mesh| share_with(mesh.error, 1))
         .column("of_basins", "of basins", "effect of making the basin of whole cells", |mesh| mesh.of_rims)
-            .viewed(|mesh| share_to_tenths(mesh.of_rims))
+            .viewed(|mesh| share_with(mesh.of_rims, 1))
         .table("meshes").titled("Meshes", "").in_file("meshes")
 }
 
@@ -136,14 +135,16 @@ fn describe_error(exit: &PoseExit) -> String {
 
 fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
     let finest = exit.found.finest();
-    let [time, bound] = exit.found.spread().map(|spread| 100.0 * spread);
+    let [time, bound] = exit.found.spread();
     let mut notes = vec![format!(
-        "the two finest meshes ({} unknowns) differ by {time:.1} % in the time and by {bound:.2} \
+        "the two finest meshes ({} unknowns) differ by {} in the time and by {:.2} \
          percentage points in the probabilities; building the basin from whole cells changes its capacity by an \
-         estimated {:.1} %; estimated error of flows {:.1} %",
+         estimated {}; estimated error of flows {}",
         finest.unknowns,
-        100.0 * finest.of_rims,
-        100.0 * finest.error,
+        share_with(time, 1),
+        100.0 * bound,
+        share_with(finest.of_rims, 1),
+        share_with(finest.error, 1),
     )];
     if exit.found.way != Way::Open {
         notes.push(exit.found.way.describe().to_owned());
@@ -180,8 +181,8 @@ fn check_notes(exit: &PoseExit, runs: &ExitRuns) -> Vec<String> {
     let first = match ended {
         0 => String::new(),
         _ => format!(
-            "; bound first in {:.0} % ({bound} of {ended})",
-            100.0 * bound as f64 / ended as f64
+            "; bound first in {} ({bound} of {ended})",
+            share_with(bound as f64 / ended as f64, 0)
         ),
     };
     let mut notes = vec![format!(

@@ -4,7 +4,6 @@ use serde_json::{Value, json};
 
 use super::told::{SCOPE, digits, finite};
 use crate::document::{Document, Drawing, Entries, Entry, Table, entries, rows};
-use crate::figures::share_to;
 use crate::plots::chart::{Chart, Dimension, Look};
 use crate::plots::committor::committor;
 use jobs::design::Design;
@@ -13,7 +12,7 @@ use physics::dynamics::MotionSettings;
 use physics::kinetics::Way;
 use physics::kinetics::bond::LEAST_DEPTH;
 use physics::kinetics::rates::map::Map;
-use physics::units::{duration, plain, si};
+use physics::units::{duration, plain, share_to, share_with, si};
 
 /// Relative difference of meshes above which a rate is unknown.
 const UNSETTLED: f64 = 0.5;
@@ -145,20 +144,20 @@ fn places(found: &StateRates) -> Table {
     let inside = shared(|it, k| it.found.inside[k]);
     rows(0..found.count())
         .column("name", "place", "", |k| found.name(*k)).without_csv()
-        .column("place", "", "", |k| found.name(*k)).in_csv()
+        .data("place", |k| found.name(*k)).in_csv()
         .column("copies", "copies", "copies by symmetry", |k| found.states.get(*k).map(|it| it.copies))
         .column("occupation", "fraction of all time", "time between states is divided by committors", occupation)
             .viewed(move |k| describe(occupation(k)))
         .column("energy_J", "energy", "of the state", of(|it| it.energy)).digits(4)
-        .column("basin_energy_J", "", "", of(|it| it.below)).in_json()
-        .column("basin_J", "", "", of(|it| it.below)).in_csv()
+        .data("basin_energy_J", of(|it| it.below)).in_json()
+        .data("basin_J", of(|it| it.below)).in_csv()
         .column("set", "its set", "configurations that make up the state", |k| describe_set(found, *k)).in_view()
-        .column("free_at_m", "", "", |k| (*k == found.states.len()).then_some(found.asked.free_at)).in_data()
+        .data("free_at_m", |k| (*k == found.states.len()).then_some(found.asked.free_at))
         .column("inside", "fraction in its set", "fraction of all time spent in the set itself", inside)
             .viewed(move |k| describe(inside(k)))
-        .column("pose", "", "", |k| found.states.get(*k).map(|it| it.at)).in_json()
-        .column("way_out", "", "", |k| found.found.ways.get(*k).map(|way| way.name())).in_json()
-        .column("mean_exit_s", "", "", |k| found.known_rate_out(*k).map(|rate| 1.0 / rate)).in_json()
+        .data("pose", |k| found.states.get(*k).map(|it| it.at)).in_json()
+        .data("way_out", |k| found.found.ways.get(*k).map(|way| way.name())).in_json()
+        .data("mean_exit_s", |k| found.known_rate_out(*k).map(|rate| 1.0 / rate)).in_json()
         .column("leaving_per_s", "escape rate", "rate to any other state", |k| found.known_rate_out(*k))
             .viewed(|k| found.known_rate_out(*k).map_or("-".to_owned(), |rate| per_second(rate, digits_out(found, *k)))).without_csv()
         .column("leaving_error", "error", "of that rate, estimated from two meshes", |k| error_of(found.known_rate_out(*k), error_out(found, *k)))
@@ -177,14 +176,14 @@ fn pairs(found: &StateRates) -> Table {
         .column("value_per_s", "rate", "", |(i, j)| found.known_rate(*i, *j))
             .viewed(|(i, j)| found.known_rate(*i, *j).map_or("-".to_owned(), |rate| per_second(rate, digits_of(found, *i, *j))))
         .column("error", "error", "of the rate, estimated from two meshes", error).viewed(move |row| error(row).map_or("-".to_owned(), either_way))
-        .column("spread", "", "difference between the two finest meshes", |(i, j)| finite(found.found.spread(*i, *j))).in_data()
+        .data("spread", |(i, j)| finite(found.found.spread(*i, *j))) // difference between the two finest meshes
         .column("first", "probability as next", "that it is the next state", |(i, j)| found.first(*i, *j)).share()
         .column("mean_first_passage_s", "mean first passage", "mean time from one to the other, \
             by any path", passage)
             .viewed(move |row| passage(row).map_or("-".to_owned(), |time| duration(time, digits_of(found, row.0, row.1))))
-        .column("from_basin_J", "", "", move |(i, _)| limit(*i)).in_csv()
-        .column("to_basin_J", "", "", move |(_, j)| limit(*j)).in_csv()
-        .column("free_at_m", "", "", |_| found.asked.free_at).in_csv()
+        .data("from_basin_J", move |(i, _)| limit(*i)).in_csv()
+        .data("to_basin_J", move |(_, j)| limit(*j)).in_csv()
+        .data("free_at_m", |_| found.asked.free_at).in_csv()
         .table("rates").titled("Rates", "").in_file("rates")
 }
 
@@ -206,10 +205,10 @@ fn by_kt(found: &StateRates) -> Value {
 fn courses(found: &StateRates) -> Table {
     let states = 0..found.states.len();
     rows(found.over_kt.iter().flat_map(|at| states.clone().map(move |k| (at, k))))
-        .column("kT_J", "", "", |(at, _)| at.kt)
-        .column("from", "", "", |(_, k)| found.name(*k))
-        .column("leaving_per_s", "", "", |(at, k)| at.leaving[*k])
-        .column("corner_leaving_per_s", "", "", |(at, k)| at.corner[*k])
+        .data("kT_J", |(at, _)| at.kt)
+        .data("from", |(_, k)| found.name(*k))
+        .data("leaving_per_s", |(at, k)| at.leaving[*k])
+        .data("corner_leaving_per_s", |(at, k)| at.corner[*k])
         .table("over-kt").in_csv("over-kt")
 }
 
@@ -217,11 +216,11 @@ fn courses(found: &StateRates) -> Table {
 #[rustfmt::skip]
 fn squares(map: &Map) -> Table {
     rows((0..map.committor.len()).filter(|square| map.committor[*square].is_finite()))
-        .column("x_m", "", "", |square| map.middle(*square)[0])
-        .column("y_m", "", "", |square| map.middle(*square)[1])
-        .column("committor", "", "", |square| map.committor[*square])
-        .column("flux_x_per_m", "", "", |square| map.flux[*square][0])
-        .column("flux_y_per_m", "", "", |square| map.flux[*square][1])
+        .data("x_m", |square| map.middle(*square)[0])
+        .data("y_m", |square| map.middle(*square)[1])
+        .data("committor", |square| map.committor[*square])
+        .data("flux_x_per_m", |square| map.flux[*square][0])
+        .data("flux_y_per_m", |square| map.flux[*square][1])
         .table("committor").in_csv("committor")
 }
 
@@ -306,10 +305,10 @@ fn of_meshes(found: &StateRates) -> String {
     };
     match found.found.error() {
         error if error.is_finite() => format!(
-            "the two finest meshes ({unknowns} unknowns) differ by at most {} %; estimated error \
-             of flows {:.1} %{unsettled}",
-            plain(100.0 * worst, 2),
-            100.0 * error,
+            "the two finest meshes ({unknowns} unknowns) differ by at most {}; estimated error \
+             of flows {}{unsettled}",
+            share_to(worst, 2),
+            share_with(error, 1),
         ),
         _ => format!("no flux on the mesh ({unknowns} unknowns){unsettled}"),
     }

@@ -94,8 +94,8 @@ impl Sweep<'_> {
     pub fn numbers(&self) -> Table {
         let points = self.points.iter();
         let mut all = rows(points.map(|point| (point, self.assessment(point.index))))
-            .column("index", "", "", |(point, _)| point.index)
-            .column("design", "", "", |(point, _)| {
+            .data("index", |(point, _)| point.index)
+            .data("design", |(point, _)| {
                 self.plan.designs[point.design].name.clone()
             });
         for (k, axis) in self.plan.axes.iter().enumerate() {
@@ -105,16 +105,16 @@ impl Sweep<'_> {
                 let number = value.number().filter(|_| is_number);
                 number.map_or_else(|| value.to_string().into(), Into::into)
             };
-            all = all.column(axis.key.clone(), "", "", value);
+            all = all.data(axis.key.clone(), value);
         }
         let outcome = |point: &Point| &self.outcomes[point.index];
         let all = all
-            .column("status", "", "", |(point, _)| status(outcome(point)))
-            .column("reason", "", "", |(point, _)| {
+            .data("status", |(point, _)| status(outcome(point)))
+            .data("reason", |(point, _)| {
                 self.reason(point.index).map(str::to_owned)
             })
-            .column("model", "", "", |(_, one)| one.map(|one| one.model.clone()))
-            .column("point", "", "", |(point, _)| point.name.clone());
+            .data("model", |(_, one)| one.map(|one| one.model.clone()))
+            .data("point", |(point, _)| point.name.clone());
         numbers(all, |(_, one)| *one).table("sweep").in_csv("sweep")
     }
 

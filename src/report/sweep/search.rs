@@ -6,7 +6,6 @@ use super::search_pictures::drawings;
 use super::searched::Searched;
 use crate::assessments::{capture_settings, checked, merge, view};
 use crate::document::{Document, Entries, Part, Table, rows};
-use crate::figures::share_to_tenths;
 use crate::page::Charts;
 use crate::points::{Sweep, said};
 use jobs::comparison::Quantity;
@@ -14,7 +13,7 @@ use jobs::comparison::quantity::Measure;
 use jobs::search::{Direction, Effect, Interval, Objective, Standing, Verdict};
 use jobs::sweep::{Outcome, Value};
 use ordered_float::OrderedFloat;
-use physics::units::{si, si_range};
+use physics::units::{change_with, share_with, si, si_range};
 
 /// The file of the best design.
 pub const BEST: &str = "best.toml";
@@ -351,7 +350,7 @@ impl Searched<'_> {
                 let (value, change) = one.steps[side]?;
                 let key = self.plan.axes[one.axis?].name();
                 let value = said(key, &Value::Number(value));
-                Some(format!("{value}: {:+.1} %", 100.0 * change))
+                Some(format!("{value}: {}", change_with(change, 1)))
             }
         };
         let remark = |one: &Effect| match (one.ends, one.is_flat()) {
@@ -390,10 +389,10 @@ impl Searched<'_> {
                     said(key, &Value::Number(values[k]))
                 };
                 Some(format!(
-                    "{}, {}: {:+.1} %",
+                    "{}, {}: {}",
                     said(0),
                     said(1),
-                    100.0 * change
+                    change_with(change, 1)
                 ))
             }
         };
@@ -430,7 +429,7 @@ pub fn figure(quantity: &Quantity, interval: &Interval) -> String {
         Measure::Energy => si(value, "J", DIGITS),
         Measure::Length => si(value, "m", DIGITS),
         Measure::Angle => format!("{:.1}\u{b0}", value.to_degrees()),
-        Measure::Share => share_to_tenths(value),
+        Measure::Share => share_with(value, 1),
         Measure::Ratio => format!("{value:.3}"),
         Measure::Count => format!("{value}"),
     };

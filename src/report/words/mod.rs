@@ -224,9 +224,9 @@ fn points(points: &[Point]) -> Table {
         .column("count", "words", "number found", |it| it.found.words.len())
         .column("upper_bound", "at most", "proved upper bound", |it| it.found.upper)
             .viewed(|it| if it.found.is_proved() { "proved".to_owned() } else { it.found.upper.to_string() })
-        .column("proved", "", "", |it| it.found.is_proved())
+        .data("proved", |it| it.found.is_proved())
         .column("gap", "gap reached", "of the words found", |it| it.judgement.as_ref().map(|it| it.gap)).digits(4)
-        .column("words", "", "", |it| json!(texts(&it.found.words))).in_json()
+        .data("words", |it| json!(texts(&it.found.words))).in_json()
         .table("frontier")
 }
 
@@ -246,7 +246,7 @@ fn list(sought: &Sought) -> Table {
         .column("worst_with", "with", "the face in that contact", |it| it.2.map(|it| it.second.to_string()))
             .viewed(|it| it.2.map_or("-".to_owned(), |it| face(it.second, sought)))
         .column("worst_slide", "slid by", "places", |it| it.2.map(|it| it.slide))
-        .column("worst_flipped", "", "", |it| it.2.map(|it| it.flipped))
+        .data("worst_flipped", |it| it.2.map(|it| it.flipped))
         .table("words")
         .titled("Words", "")
         .listing(LISTED)
@@ -260,15 +260,15 @@ fn pairs(sought: &Sought) -> Table {
     let met = sought.pairs().filter_map(|[i, j]| Some((i, j, sought.strongest(words[i], words[j])?)));
     let slide = |it: &WrongContact| f64::from(it.slide) * sought.bar.pitch;
     rows(met)
-        .column("first", "", "", |it| name(it.0))
-        .column("second", "", "", |it| name(it.1) + if it.2.second == words[it.1] { "" } else { "*" })
-        .column("first_code", "", "", |it| it.2.first.to_string())
-        .column("second_code", "", "", |it| it.2.second.to_string())
-        .column("energy_J", "", "", |it| it.2.energy)
-        .column("slide", "", "", |it| it.2.slide)
-        .column("slide_m", "", "", move |it| slide(&it.2))
-        .column("flipped", "", "", |it| it.2.flipped)
-        .column("pose", "", "", move |it| Configuration::new(sought.side(), slide(&it.2), 0.0))
+        .data("first", |it| name(it.0))
+        .data("second", |it| name(it.1) + if it.2.second == words[it.1] { "" } else { "*" })
+        .data("first_code", |it| it.2.first.to_string())
+        .data("second_code", |it| it.2.second.to_string())
+        .data("energy_J", |it| it.2.energy)
+        .data("slide", |it| it.2.slide)
+        .data("slide_m", move |it| slide(&it.2))
+        .data("flipped", |it| it.2.flipped)
+        .data("pose", move |it| Configuration::new(sought.side(), slide(&it.2), 0.0))
         .table("crosstalk")
 }
 

@@ -107,9 +107,9 @@ fn words(spaced: &Spaced) -> Table {
         let code = word.code(stands);
         let poles: Vec<char> = code.chars().collect();
         rows(word.positions().into_iter().zip(poles))
-            .column("word", "", "", move |_| code.clone())
-            .column("at_m", "", "", |it| it.0)
-            .column("pole", "", "", |it| it.1.to_string())
+            .data("word", move |_| code.clone())
+            .data("at_m", |it| it.0)
+            .data("pole", |it| it.1.to_string())
             .table("magnets")
             .in_file("words")
     };
@@ -121,7 +121,7 @@ fn words(spaced: &Spaced) -> Table {
         .column("name", "name", "of the word; mates are marked with *", |it| name(it.0))
         .column("word", "word", "its poles in order: N or S out of the face, U or D north up or down", |it| it.1.code(stands))
         .column("positions", "magnets at", "along the face, from its centre", move |it| places(it.1))
-        .column("magnets", "", "", move |it| magnets(it.1))
+        .data("magnets", move |it| magnets(it.1))
         .table("words")
         .titled("Words", "")
 }

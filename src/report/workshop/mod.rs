@@ -21,6 +21,7 @@ use jobs::output::Command;
 use jobs::workshop::{Filled, Made, MadeTile, Placed, Pocket, Sheet, Subject, grade};
 use physics::tile::Magnet;
 use physics::tile::magnet::Shape;
+use physics::units::change_with;
 use plan::Plan;
 
 /// The files of the command.
@@ -341,9 +342,9 @@ fn magnets(magnets: &[(Magnet, usize)]) -> Table {
         .column("number", "number", "", |(_, count)| *count)
         .column("size_m", "size (mm)", "along the moment first", |(magnet, _)| json!(magnet.axis_first())).without_csv()
             .viewed(move |(magnet, _)| describe(magnet))
-        .column("length_m", "", "", |(magnet, _)| magnet.axis_first()[0]).in_csv()
-        .column("width_m", "", "", |(magnet, _)| magnet.axis_first()[1]).in_csv()
-        .column("height_m", "", "", |(magnet, _)| magnet.axis_first()[2]).in_csv()
+        .data("length_m", |(magnet, _)| magnet.axis_first()[0]).in_csv()
+        .data("width_m", |(magnet, _)| magnet.axis_first()[1]).in_csv()
+        .data("height_m", |(magnet, _)| magnet.axis_first()[2]).in_csv()
         .column("remanence_T", "remanence", "", |(magnet, _)| magnet.remanence())
         .column("nearest", "closest standard grade", "", |(magnet, _)| nearest(magnet.remanence()))
         .table("magnets")
@@ -354,8 +355,8 @@ fn magnets(magnets: &[(Magnet, usize)]) -> Table {
 fn nearest(remanence: f64) -> String {
     match grade::nearest(remanence) {
         Some((grade, own)) => format!(
-            "{grade} ({own} T: forces {:+.0} %)",
-            100.0 * ((own / remanence).powi(2) - 1.0)
+            "{grade} ({own} T: forces {})",
+            change_with((own / remanence).powi(2) - 1.0, 0)
         ),
         None if remanence < grade::sold()[0].remanence[1] => "weaker than N35 (1.19 T)".to_owned(),
         None => "none: stronger than N52 (1.46 T)".to_owned(),
@@ -426,16 +427,16 @@ fn steps(made: &Made, tile: &MadeTile) -> Table {
         many => format!("; {many} of its pockets have no room for an engraved mark"),
     };
     rows((1..).zip(&tile.steps))
-        .column("tile", "", "", |_| name.clone()).in_csv()
+        .data("tile", |_| name.clone()).in_csv()
         .column("step", "step", "", |(step, _)| *step)
         .column("pocket", "pocket", "its face, and the magnet's number on it, counter-clockwise", move |it| pocket(it).name).viewed(describe)
         .column("pole", "pole", "N or S out of the face; U north up, D south up", move |it| pocket(it).pole.letter().to_string())
         .column("push_N", "during insertion", "largest repulsion", |(_, it)| it.push).viewed(|(_, it)| advice(it))
         .column("meets", "faces in the bond", "the pocket of the other tile, which this one repels if one magnet of the two is the wrong way round", |(_, it)| meets(it))
         .column("left_if_wrong", "bond if wrong", "share of the bond that is left if this magnet is the wrong way round", |(_, it)| it.left_if_wrong).viewed(|(_, it)| it.left_if_wrong.map_or(String::new(), left))
-        .column("wall_m", "", "", move |it| pocket(it).wall)
-        .column("between_m", "", "", move |it| pocket(it).between())
-        .column("depth_m", "", "", move |it| pocket(it).depth)
+        .data("wall_m", move |it| pocket(it).wall)
+        .data("between_m", move |it| pocket(it).between())
+        .data("depth_m", move |it| pocket(it).depth)
         .table(name.clone())
         .in_file("order")
         .titled(

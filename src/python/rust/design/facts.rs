@@ -88,15 +88,15 @@ impl Design {
     ///     `height_m` (through the tile), `face` (its number).
     fn magnets<'py>(&self, py: Python<'py>, tile: &str) -> PyResult<Bound<'py, PyAny>> {
         let magnets = rows(&self.tile(tile)?.magnets)
-            .column("x_m", "", "", |magnet| magnet.position.x)
-            .column("y_m", "", "", |magnet| magnet.position.y)
-            .column("angle_rad", "", "", |magnet| magnet.angle)
-            .column("moment_A_m2", "", "", |magnet| magnet.moment)
-            .column("remanence_T", "", "", |magnet| magnet.remanence())
-            .column("length_m", "", "", |magnet| magnet.size[0])
-            .column("width_m", "", "", |magnet| magnet.size[1])
-            .column("height_m", "", "", |magnet| magnet.size[2])
-            .column("face", "", "", |magnet| magnet.face);
+            .data("x_m", |magnet| magnet.position.x)
+            .data("y_m", |magnet| magnet.position.y)
+            .data("angle_rad", |magnet| magnet.angle)
+            .data("moment_A_m2", |magnet| magnet.moment)
+            .data("remanence_T", |magnet| magnet.remanence())
+            .data("length_m", |magnet| magnet.size[0])
+            .data("width_m", |magnet| magnet.size[1])
+            .data("height_m", |magnet| magnet.size[2])
+            .data("face", |magnet| magnet.face);
         table::array(py, &magnets.table("magnets"))
     }
 
