@@ -95,14 +95,12 @@ fn sentence(design: &Design, query: &Request, answer: &Answer) -> String {
 /// The energy along the path.
 fn profile(answer: &Answer) -> Chart {
     let way = thinned(&answer.barrier.pathway, SEEN);
-    Chart {
-        name: "profile",
-        title: "Energy along the path".to_owned(),
-        x: Dimension::new("s_m", "way"),
-        y: Dimension::new("energy_J", "energy"),
-        series: Vec::new(),
-        remark: String::new(),
-    }
+    Chart::new(
+        "profile",
+        "Energy along the path",
+        Dimension::new("s_m", "way"),
+        Dimension::new("energy_J", "energy"),
+    )
     .with(
         "energy",
         Look::Line,

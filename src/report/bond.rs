@@ -172,14 +172,13 @@ fn over_kt(held: &Held) -> Chart {
         points.map(|(kt, dockings)| [*kt, of(dockings)]).collect()
     };
     let two = line(&|dockings| dockings[0].ln_k(2.0));
-    let mut chart = Chart {
-        name: "shaking",
-        title: "How strongly states hold over kT".to_owned(),
-        x: Dimension::new("kT_J", "kT").logarithmic(),
-        y: Dimension::new("ln_K", "ln K"),
-        series: Vec::new(),
-        remark: "above 0 a pair is bound more than half of the time".to_owned(),
-    };
+    let mut chart = Chart::new(
+        "shaking",
+        "How strongly states hold over kT",
+        Dimension::new("kT_J", "kT").logarithmic(),
+        Dimension::new("ln_K", "ln K"),
+    )
+    .remarked("above 0 a pair is bound more than half of the time");
     for (k, state) in held.states.iter().enumerate() {
         let one = line(&|dockings| dockings[k].ln_k(1.0));
         chart = chart.with(state.name.clone(), Look::Line, one).in_colour(k);

@@ -238,14 +238,12 @@ fn readings(found: &StrengthFit) -> Table {
 fn forces(found: &StrengthFit) -> Chart {
     let measured = found.readings.iter().filter(|it| it.reading.force > 0.0);
     let curve = |k: usize| found.curve.iter().map(move |point| [point[0], point[k]]);
-    Chart {
-        name: "force",
-        title: "measured and fitted force over the gap".to_owned(),
-        x: Dimension::new("gap_m", "gap between the faces"),
-        y: Dimension::new("force_N", "force").logarithmic(),
-        series: Vec::new(),
-        remark: String::new(),
-    }
+    Chart::new(
+        "force",
+        "measured and fitted force over the gap",
+        Dimension::new("gap_m", "gap between the faces"),
+        Dimension::new("force_N", "force").logarithmic(),
+    )
     .with("fitted", Look::Steps, curve(1))
     .with("the design's remanence", Look::Dashed, curve(2))
     .with(
@@ -259,14 +257,12 @@ fn misfits(found: &StrengthFit) -> Chart {
     let point = |it: &Compared| [it.reading.gap, it.reading.force / it.fitted - 1.0];
     let largest = found.readings.iter().map(|it| point(it)[1].abs());
     let largest = 1.1 * largest.fold(0.01, f64::max);
-    Chart {
-        name: "misfit",
-        title: "measured over fitted force, less 1".to_owned(),
-        x: Dimension::new("gap_m", "gap between the faces"),
-        y: Dimension::share("misfit", "misfit").within([-largest, largest]),
-        series: Vec::new(),
-        remark: String::new(),
-    }
+    Chart::new(
+        "misfit",
+        "measured over fitted force, less 1",
+        Dimension::new("gap_m", "gap between the faces"),
+        Dimension::share("misfit", "misfit").within([-largest, largest]),
+    )
     .with("measured", Look::Dots, found.readings.iter().map(point))
 }
 

@@ -66,10 +66,7 @@ pub(crate) fn of_setting(built: &Rows) -> Value {
         },
         "longest_chain": built.longest,
         "closures": built.closings,
-        "structures": built.counts.iter().filter(|it| it.size > 1).map(|it| json!({
-            "kind": kind(it), "size": it.size,
-            "mean": it.number.mean, "low": it.number.low, "high": it.number.high,
-        })).collect::<Vec<Value>>(),
+        "structures": structures(built).json(),
     })
 }
 
@@ -115,14 +112,12 @@ fn area(area: f64) -> String {
 /// The share of tiles that are single, in chains and in rings over time.
 pub(crate) fn chart(built: &Rows) -> Chart {
     let line = |k: usize| built.course.iter().map(move |point| [point[0], point[k]]);
-    Chart {
-        name: "structures",
-        title: "Single tiles, chains and rings over time".to_owned(),
-        x: Dimension::new("time_s", "time").logarithmic(),
-        y: Dimension::share("share", "fraction of all tiles"),
-        series: Vec::new(),
-        remark: String::new(),
-    }
+    Chart::new(
+        "structures",
+        "Single tiles, chains and rings over time",
+        Dimension::new("time_s", "time").logarithmic(),
+        Dimension::share("share", "fraction of all tiles"),
+    )
     .with("single", Look::Line, line(2))
     .with("in chains", Look::Line, line(3))
     .with("in rings", Look::Line, line(4))

@@ -192,18 +192,16 @@ pub(super) fn histogram(title: &str, gaps: impl Iterator<Item = f64>) -> Chart {
     let bins = first.saturating_sub(1)..(last + 2).min(BINS);
     let ends = [bins.start, bins.end].map(|end| end as f64 / BINS as f64);
     let pairs = Dimension::new("pairs", "pairs");
-    Chart {
-        name: "gaps",
-        title: title.to_owned(),
-        x: Dimension::new("gap", "gap of the pair").within(ends),
-        y: match counts.iter().max() {
+    Chart::new(
+        "gaps",
+        title,
+        Dimension::new("gap", "gap of the pair").within(ends),
+        match counts.iter().max() {
             // Axis marks at whole numbers only.
             Some(most @ ..7) => pairs.marked((0..=*most).map(|count| count as f64)),
             _ => pairs,
         },
-        series: Vec::new(),
-        remark: String::new(),
-    }
+    )
     .with(
         "pairs",
         Look::Bars,

@@ -121,13 +121,11 @@ fn still_bound(left: &[f64], all: usize, duration: f64) -> Chart {
     let steps = steps.flat_map(|(k, time)| [[*time, share(k)], [*time, share(k + 1)]]);
     let ends = [[0.0, 1.0], [duration, share(left.len())]];
     let points = [ends[0]].into_iter().chain(steps).chain([ends[1]]);
-    Chart {
-        name: "bound",
-        title: "Fraction still bound over time".to_owned(),
-        x: Dimension::new("time_s", "time"),
-        y: Dimension::share("bound", "still bound"),
-        series: Vec::new(),
-        remark: String::new(),
-    }
+    Chart::new(
+        "bound",
+        "Fraction still bound over time",
+        Dimension::new("time_s", "time"),
+        Dimension::share("bound", "still bound"),
+    )
     .with("still bound", Look::Steps, points)
 }

@@ -670,13 +670,8 @@ fn trajectory(found: &Found) -> Vec<u8> {
 
 fn pictures(found: &Found) -> Vec<Drawing<'_>> {
     let moments = &found.statistics.moments;
-    let chart = |name, title: &str, y: Dimension| Chart {
-        name,
-        title: title.to_owned(),
-        x: Dimension::new("time_s", "time"),
-        y,
-        series: Vec::new(),
-        remark: String::new(),
+    let chart = |name, title: &str, y: Dimension| {
+        Chart::new(name, title, Dimension::new("time_s", "time"), y)
     };
     let line = |of: fn(&Moment) -> Interval| {
         moments.iter().map(move |it| {

@@ -270,26 +270,30 @@ fn pictures(found: &Tolerance) -> Vec<Chart> {
     let ratios: Vec<f64> = ratios.filter(|it| it.is_finite()).collect();
     let count = || Dimension::new("draws", "draws");
     let mut charts = vec![
-        Chart {
-            name: "bond",
-            title: "Depth of the bond".to_owned(),
-            x: Dimension::new("depth_J", "depth of the bond"),
-            y: count(),
-            series: Vec::new(),
-            remark: format!("without errors {}", si(-found.bond.nominal, "J", 4)),
-        }
+        Chart::new(
+            "bond",
+            "Depth of the bond",
+            Dimension::new("depth_J", "depth of the bond"),
+            count(),
+        )
+        .remarked(format!(
+            "without errors {}",
+            si(-found.bond.nominal, "J", 4)
+        ))
         .with("draws", Look::Bars, histogram(&bonds)),
     ];
     if !ratios.is_empty() {
         charts.push(
-            Chart {
-                name: "selectivity",
-                title: "Depth of the bond over that of the deepest trap".to_owned(),
-                x: Dimension::new("selectivity", "selectivity"),
-                y: count(),
-                series: Vec::new(),
-                remark: format!("a pair works from {} on", found.making.least_selectivity()),
-            }
+            Chart::new(
+                "selectivity",
+                "Depth of the bond over that of the deepest trap",
+                Dimension::new("selectivity", "selectivity"),
+                count(),
+            )
+            .remarked(format!(
+                "a pair works from {} on",
+                found.making.least_selectivity()
+            ))
             .with("draws", Look::Bars, histogram(&ratios)),
         );
     }
@@ -301,14 +305,13 @@ fn pictures(found: &Tolerance) -> Vec<Chart> {
         let names: Vec<String> = bars.clone().map(name).collect();
         let bars = bars.map(|(k, it)| [(k + 1) as f64, it.of_bond]);
         charts.push(
-            Chart {
-                name: "matters",
-                title: "Shares of the variance of the bond".to_owned(),
-                x: Dimension::new("rank", "rank").marked((1..=names.len()).map(|k| k as f64)),
-                y: Dimension::share("share_of_variance", "share of the variance"),
-                series: Vec::new(),
-                remark: names.join(", "),
-            }
+            Chart::new(
+                "matters",
+                "Shares of the variance of the bond",
+                Dimension::new("rank", "rank").marked((1..=names.len()).map(|k| k as f64)),
+                Dimension::share("share_of_variance", "share of the variance"),
+            )
+            .remarked(names.join(", "))
             .with("share", Look::Bars, bars),
         );
     }

@@ -354,14 +354,8 @@ fn crowds(outcome: &Outcome) -> Table {
 
 fn pictures<'a>(request: &Request, found: &Yields) -> Vec<Drawing<'a>> {
     let best = found.best();
-    let chart = |name, title: &str, x, y: &str| Chart {
-        name,
-        title: title.to_owned(),
-        x,
-        y: Dimension::share("share", y),
-        series: Vec::new(),
-        remark: String::new(),
-    };
+    let chart =
+        |name, title: &str, x, y: &str| Chart::new(name, title, x, Dimension::share("share", y));
     let time = Dimension::new("time_s", "time").logarithmic();
     let line = |k: usize| best.course.iter().map(move |point| [point[0], point[k]]);
     let course = chart(

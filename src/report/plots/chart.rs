@@ -301,6 +301,24 @@ pub struct Chart {
 }
 
 impl Chart {
+    /// A chart without series: the stem of its files, its title, and its axes.
+    pub fn new(name: &'static str, title: impl Into<String>, x: Dimension, y: Dimension) -> Self {
+        Self {
+            name,
+            title: title.into(),
+            x,
+            y,
+            series: Vec::new(),
+            remark: String::new(),
+        }
+    }
+
+    /// Sets the remark.
+    pub fn remarked(mut self, remark: impl Into<String>) -> Self {
+        self.remark = remark.into();
+        self
+    }
+
     /// Adds a series in a new colour.
     pub fn with<P: Into<Point>>(
         mut self,

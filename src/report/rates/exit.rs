@@ -103,10 +103,10 @@ fn by_mesh(exit: &PoseExit) -> Chart {
     let range = times.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], time| {
         [low.min(0.9 * time), high.max(1.1 * time)]
     });
-    Chart {
-        name: "meshes",
-        title: "Mean exit time on successively finer meshes".to_owned(),
-        x: Dimension::new("unknowns", "unknowns of the mesh")
+    Chart::new(
+        "meshes",
+        "Mean exit time on successively finer meshes",
+        Dimension::new("unknowns", "unknowns of the mesh")
             .logarithmic()
             .marked(
                 [exit.found.meshes.first(), exit.found.meshes.last()]
@@ -114,10 +114,8 @@ fn by_mesh(exit: &PoseExit) -> Chart {
                     .flatten()
                     .map(unknowns),
             ),
-        y: Dimension::new("mean_exit_s", "mean exit time").within(range),
-        series: Vec::new(),
-        remark: String::new(),
-    }
+        Dimension::new("mean_exit_s", "mean exit time").within(range),
+    )
     .with(
         "on the mesh",
         Look::Line,

@@ -240,16 +240,15 @@ fn pictures<'a>(design: &'a Design, found: &'a StateRates) -> Vec<Drawing<'a>> {
 
 /// Rates out of each state over kT, on logarithmic axes; the closed form dashed.
 fn over_kt(found: &StateRates) -> Chart {
-    let mut chart = Chart {
-        name: "rates",
-        title: "Rates out of states over kT".to_owned(),
-        x: Dimension::new("kT_J", "kT")
+    let mut chart = Chart::new(
+        "rates",
+        "Rates out of states over kT",
+        Dimension::new("kT_J", "kT")
             .logarithmic()
             .marked(found.over_kt.iter().map(|at| at.kt)),
-        y: Dimension::new("leaving_per_s", "rate out").logarithmic(),
-        series: Vec::new(),
-        remark: "closed form: wells as corners".to_owned(),
-    };
+        Dimension::new("leaving_per_s", "rate out").logarithmic(),
+    )
+    .remarked("closed form: wells as corners");
     for (k, state) in found.states.iter().enumerate() {
         let line = |of: &dyn Fn(&AtKt) -> Option<f64>| -> Vec<[f64; 2]> {
             let known = |at: &AtKt| Some([at.kt, of(at).filter(|rate| *rate > 0.0)?]);

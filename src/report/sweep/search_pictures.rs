@@ -81,14 +81,13 @@ fn course(searched: &Searched, number: usize, objective: &Objective) -> Chart {
         }
         steps.push([x, sign * best]);
     }
-    Chart {
-        name: ["history", "history-2"][number.min(1)],
-        title: format!("{objective}: the course of the search"),
-        x: Dimension::new("point", "point"),
-        y: dimension(quantity),
-        series: Vec::new(),
-        remark: "bars: certified bounds, 95 % intervals; ^ infinite".to_owned(),
-    }
+    Chart::new(
+        ["history", "history-2"][number.min(1)],
+        format!("{objective}: the course of the search"),
+        Dimension::new("point", "point"),
+        dimension(quantity),
+    )
+    .remarked("bars: certified bounds, 95 % intervals; ^ infinite")
     .with("the best so far", Look::Steps, steps)
     .with("without proofs", Look::Dots, fit)
     .with("with proofs", Look::Dots, proved)
@@ -110,14 +109,13 @@ fn front(searched: &Searched, one: &Objective, other: &Objective) -> Chart {
     };
     let is_best = |k: usize| searched.verdicts[k] == Verdict::Best;
     let is_fit = |k: usize| searched.standings[k].gains().is_some();
-    Chart {
-        name: "front",
-        title: format!("{one} and {other}: the front"),
-        x: dimension(one.quantity()),
-        y: dimension(other.quantity()),
-        series: Vec::new(),
-        remark: "^ infinite".to_owned(),
-    }
+    Chart::new(
+        "front",
+        format!("{one} and {other}: the front"),
+        dimension(one.quantity()),
+        dimension(other.quantity()),
+    )
+    .remarked("^ infinite")
     .with("front", Look::Line, places(&is_best))
     .with(
         "surpassed",

@@ -287,14 +287,12 @@ fn frontier_chart(answer: &Answer) -> Chart {
             }
         })
     };
-    Chart {
-        name: "frontier",
-        title: "Number of words versus gap".to_owned(),
-        x: Dimension::new("asked_gap", "requested gap"),
-        y: Dimension::new("words", "words").counting(),
-        series: Vec::new(),
-        remark: String::new(),
-    }
+    Chart::new(
+        "frontier",
+        "Number of words versus gap",
+        Dimension::new("asked_gap", "requested gap"),
+        Dimension::new("words", "words").counting(),
+    )
     .with("most, proved", Look::Dots, points(true))
     .with("found, and at most", Look::Rings, points(false))
 }
