@@ -3,7 +3,7 @@
 use clap::{Arg, Args, Command, CommandFactory, ValueHint};
 use clap_complete::Shell;
 
-use super::{Failure, print};
+use super::{Arguments, Failure, print};
 
 /// Only Bash would otherwise offer options in place of files.
 const FILES_BEFORE_OPTIONS: &[u8] = include_bytes!("completions.bash");
@@ -19,9 +19,9 @@ pub struct Completions {
 }
 
 impl Completions {
-    pub fn run<C: CommandFactory>(self) -> Result<(), Failure> {
+    pub fn run(self) -> Result<(), Failure> {
         let mut text = Vec::new();
-        let mut program = hinted(C::command());
+        let mut program = hinted(Arguments::command());
         clap_complete::generate(self.shell, &mut program, "tilebind", &mut text);
         if self.shell == Shell::Bash {
             text.extend(FILES_BEFORE_OPTIONS);

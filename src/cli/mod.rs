@@ -78,9 +78,25 @@ pub struct Arguments {
     pub command: Command,
 }
 
+macro_rules! commands {
+    ($($name:ident($command:ty),)*) => {
+        #[derive(Subcommand)]
+        pub enum Command {
+            $($name($command),)*
+        }
+
+        impl Command {
+            pub fn run(self) -> Result<(), Failure> {
+                match self {
+                    $(Self::$name(command) => command.run(),)*
+                }
+            }
+        }
+    };
+}
+
 // In the order of the help.
-#[derive(Subcommand)]
-pub enum Command {
+commands! {
     Analyse(analyse::Analyse),
     Energy(energy::Energy),
     Barrier(barrier::Barrier),
@@ -103,35 +119,6 @@ pub enum Command {
     Init(init::Init),
     Schema(schema::Schema),
     Completions(completions::Completions),
-}
-
-impl Command {
-    pub fn run(self) -> Result<(), Failure> {
-        match self {
-            Self::Analyse(command) => command.run(),
-            Self::Energy(command) => command.run(),
-            Self::Barrier(command) => command.run(),
-            Self::Bond(command) => command.run(),
-            Self::Verify(command) => command.run(),
-            Self::Compare(command) => command.run(),
-            Self::Sweep(command) => command.run(),
-            Self::Dock(command) => command.run(),
-            Self::Words(command) => command.run(),
-            Self::Crosstalk(command) => command.run(),
-            Self::Match(command) => command.run(),
-            Self::Assemble(command) => command.run(),
-            Self::Yield(command) => command.run(),
-            Self::Table(command) => command.run(),
-            Self::Calibrate(command) => command.run(),
-            Self::Rates(command) => command.run(),
-            Self::Show(command) => command.run(),
-            Self::Tolerance(command) => command.run(),
-            Self::Make(command) => command.run(),
-            Self::Init(command) => command.run(),
-            Self::Schema(command) => command.run(),
-            Self::Completions(command) => command.run::<Arguments>(),
-        }
-    }
 }
 
 /// Reads the command line. An argument that looks like a negative number belongs to the option

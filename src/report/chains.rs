@@ -130,37 +130,18 @@ fn kind(count: &Count) -> &'static str {
     }
 }
 
+// One line a column.
+#[rustfmt::skip]
 fn structures(built: &Rows) -> Table {
     let listed = built.counts.iter().filter(|it| it.size > 1).cloned();
     rows(listed)
         .column("kind", "structure", "", |it: &Count| kind(it))
         .column("size", "tiles", "", |it| it.size)
-        .column(
-            "mean",
-            "number",
-            "at the end, mean over the simulations",
-            |it| it.number.mean,
-        )
-        .digits(3)
-        .column(
-            "low",
-            "from",
-            "95 % over the simulations and of the attachment rate",
-            |it| it.number.low,
-        )
-        .digits(3)
-        .column(
-            "high",
-            "to",
-            "95 % over the simulations and of the attachment rate",
-            |it| it.number.high,
-        )
-        .digits(3)
+        .column("mean", "number", "at the end, mean over the simulations", |it| it.number.mean).digits(3)
+        .column("low", "from", "95 % over the simulations and of the attachment rate", |it| it.number.low).digits(3)
+        .column("high", "to", "95 % over the simulations and of the attachment rate", |it| it.number.high).digits(3)
         .table("structures")
-        .titled(
-            "Chains and rings at the end",
-            "rings are closed, chains open",
-        )
+        .titled("Chains and rings at the end", "rings are closed, chains open")
         .in_file("structures")
 }
 

@@ -317,37 +317,25 @@ fn method(outcome: &Outcome) -> &'static str {
     }
 }
 
+// One line a column.
+#[rustfmt::skip]
 fn course(outcome: &Outcome) -> Table {
     rows(&outcome.course)
         .column("time_s", "time", "since the start", |it| it[0])
-        .column(
-            "bound",
-            "bound",
-            "fraction of all pairs in the bond",
-            |it| it[1],
-        )
-        .column(
-            "trapped",
-            "in traps",
-            "fraction of all pairs in traps",
-            |it| it[2],
-        )
+        .column("bound", "bound", "fraction of all pairs in the bond", |it| it[1])
+        .column("trapped", "in traps", "fraction of all pairs in traps", |it| it[2])
         .table("over_time")
         .in_file("course")
 }
 
+// One line a column.
+#[rustfmt::skip]
 fn crowds(outcome: &Outcome) -> Table {
     rows(&outcome.table)
         .column("tiles", "tiles", "on the table", |it| it.0)
         .column("coverage", "covered", "fraction of the table", |it| it.1)
-        .column(
-            "yield",
-            "bound",
-            "fraction of all pairs in the bond",
-            |it| it.2,
-        )
-        .data("exact", |it| it.3)
-        .in_json()
+        .column("yield", "bound", "fraction of all pairs in the bond", |it| it.2)
+        .data("exact", |it| it.3).in_json()
         .table("table")
         .in_file("yield")
 }
