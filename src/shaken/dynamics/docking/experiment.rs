@@ -13,6 +13,7 @@ use landscape::Proportion;
 use landscape::minimum::{Known, Outcome, approach};
 use tiles::configuration::Configuration;
 use tiles::order::Order;
+use tiles::parallel;
 use tiles::problem::Problem;
 use tiles::tile::Pair;
 
@@ -164,7 +165,7 @@ impl<'a> Experiment<'a> {
                 .collect(),
             runs,
             wall_s,
-            threads: rayon::current_num_threads(),
+            threads: parallel::threads(),
         }
     }
 }
