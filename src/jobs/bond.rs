@@ -6,7 +6,7 @@ use crate::design::Design;
 use crate::pipeline;
 use crate::request;
 use physics::configuration::Configuration;
-use physics::kinetics::bond::{BondError, Docking, Hold, Shaking, TOLERANCE, traps};
+use physics::kinetics::bond::{Binding, BondError, Hold, Shaking, TOLERANCE, traps};
 use physics::landscape::Catalogue;
 use physics::observer::Observer;
 use physics::parallel;
@@ -76,7 +76,7 @@ pub struct Held {
     /// Whether the bond has play, but less than the contact tolerance.
     pub is_too_cold: bool,
     /// The strength of the states at other kT (J); empty if not requested.
-    pub over_kt: Vec<(f64, Vec<Docking>)>,
+    pub over_kt: Vec<(f64, Vec<Binding>)>,
 }
 
 /// A kind of states at one kT.
@@ -97,11 +97,11 @@ pub struct HeldState {
     /// ... or the part of it that was examined.
     pub is_cut: bool,
     /// Its binding strength.
-    pub docking: Docking,
+    pub docking: Binding,
     /// The same with only the part of the basin below half its depth.
-    pub inner: Docking,
+    pub inner: Binding,
     /// The same by the closed form of corner wells, if there is one.
-    pub closed: Option<Docking>,
+    pub closed: Option<Binding>,
 }
 
 impl HeldState {

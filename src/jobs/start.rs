@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::design::{Material, STARTER, Shape, ShopMagnet, Start, StartError, check_name};
+use crate::design::{Material, ProfileShape, STARTER, ShopMagnet, Start, StartError, check_name};
 use crate::request::{self, Word};
 
 /// The options of a new design; without any options, it is one that explains every key.
@@ -22,7 +22,7 @@ pub struct Request {
 
     /// Shape of those faces: flat, tab, arc, sine or triangle [default: tab]
     #[arg(long, value_parser = shape(), hide_possible_values = true)]
-    pub shape: Option<Shape>,
+    pub shape: Option<ProfileShape>,
 
     /// Magnets as sold: "10 x 5 x 2 mm N42", or a disc: "10 x 3 mm N42" [default: sized to fit]
     ///
@@ -46,9 +46,9 @@ pub struct Request {
     pub one_kind: bool,
 }
 
-fn shape() -> Word<Shape> {
-    let names = Shape::NAMES.map(|(name, _)| name).join(", ");
-    Word::new(&Shape::NAMES, format!("a shape is one of {names}"))
+fn shape() -> Word<ProfileShape> {
+    let names = ProfileShape::NAMES.map(|(name, _)| name).join(", ");
+    Word::new(&ProfileShape::NAMES, format!("a shape is one of {names}"))
 }
 
 impl Request {

@@ -9,7 +9,7 @@ use crate::figures::share;
 use jobs::bond::{Held, HeldState};
 use jobs::design::Design;
 use jobs::output::Command;
-use physics::kinetics::bond::Docking;
+use physics::kinetics::bond::Binding;
 use physics::kinetics::bond::volume::NO_PLAY;
 use physics::units::{change_with, si};
 
@@ -167,7 +167,7 @@ fn by_kt(held: &Held) -> Table {
 
 /// ln K over kT: for one bond, for two bonds closed by one docking, and for the traps.
 fn over_kt(held: &Held) -> Chart {
-    let line = |of: &dyn Fn(&[Docking]) -> f64| -> Vec<[f64; 2]> {
+    let line = |of: &dyn Fn(&[Binding]) -> f64| -> Vec<[f64; 2]> {
         let points = held.over_kt.iter();
         points.map(|(kt, dockings)| [*kt, of(dockings)]).collect()
     };

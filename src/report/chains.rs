@@ -4,11 +4,11 @@ use serde_json::{Value, json};
 
 use crate::document::{Entries, Table, rows};
 use crate::plots::chart::{Chart, Dimension, Look};
-use jobs::yields::{Count, Mean, Outcome, Request, Rows};
+use jobs::yields::{Chains, Count, Mean, Request, Yield};
 use physics::units::{duration, plain, share_to, si};
 
 /// The bonds and the shares of tiles, in a sentence.
-pub(crate) fn answer(name: &str, request: &Request, best: &Outcome, built: &Rows) -> String {
+pub(crate) fn answer(name: &str, request: &Request, best: &Yield, built: &Chains) -> String {
     let [single, chains, rings] = built.shares.map(|share| percent(share.mean));
     format!(
         "{name}: {} bonds of {} equal tiles after {} at kT = {}; {single} of the tiles are single, {chains} in chains \
@@ -21,7 +21,7 @@ pub(crate) fn answer(name: &str, request: &Request, best: &Outcome, built: &Rows
 }
 
 /// What was built at the best kT.
-pub(crate) fn entries(built: &Rows) -> Entries {
+pub(crate) fn entries(built: &Chains) -> Entries {
     let [single, chains, rings] = built.shares;
     let share = |part: &Mean| {
         format!(
@@ -56,7 +56,7 @@ pub(crate) fn entries(built: &Rows) -> Entries {
 }
 
 /// The same of one kT, as JSON.
-pub(crate) fn of_setting(built: &Rows) -> Value {
+pub(crate) fn of_setting(built: &Chains) -> Value {
     json!({
         "bonds": built.bonds,
         "tiles_in": {
@@ -71,7 +71,7 @@ pub(crate) fn of_setting(built: &Rows) -> Value {
 }
 
 /// How chains were counted, and what closes.
-pub(crate) fn notes(built: &Rows) -> Vec<String> {
+pub(crate) fn notes(built: &Chains) -> Vec<String> {
     let longest = match built.longest {
         Some(longest) => format!("the longest chain that has room has {longest} tiles; "),
         None => String::new(),
@@ -110,7 +110,7 @@ fn area(area: f64) -> String {
 }
 
 /// The share of tiles that are single, in chains and in rings over time.
-pub(crate) fn chart(built: &Rows) -> Chart {
+pub(crate) fn chart(built: &Chains) -> Chart {
     let line = |k: usize| built.course.iter().map(move |point| [point[0], point[k]]);
     Chart::new(
         "structures",
@@ -132,7 +132,7 @@ fn kind(count: &Count) -> &'static str {
 
 // One line a column.
 #[rustfmt::skip]
-fn structures(built: &Rows) -> Table {
+fn structures(built: &Chains) -> Table {
     let listed = built.counts.iter().filter(|it| it.size > 1).cloned();
     rows(listed)
         .column("kind", "structure", "", |it: &Count| kind(it))
@@ -145,7 +145,7 @@ fn structures(built: &Rows) -> Table {
         .in_file("structures")
 }
 
-fn course(built: &Rows) -> Table {
+fn course(built: &Chains) -> Table {
     rows(&built.course)
         .column("time_s", "time", "since the start", |it| it[0])
         .column("bonds", "bonds", "mean number", |it| it[1])

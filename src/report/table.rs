@@ -7,7 +7,7 @@ use crate::chains;
 use crate::document::{Document, Drawing, Entries, Part, Table, rows};
 use crate::gsd::{self, Particle};
 use crate::page::Crowd;
-use crate::plots::chart::{Chart, Dimension, Look, Point};
+use crate::plots::chart::{Chart, ChartPoint, Dimension, Look};
 use crate::plots::crowd::{ends, film};
 use jobs::assembly::kinetic::Growth;
 use jobs::output::Files;
@@ -15,7 +15,7 @@ use jobs::request::Shard;
 use jobs::table::{
     About, Found, Interval, Lifetime, Moment, PART, Prediction, Request, Statistics, Verdict,
 };
-use jobs::yields::{self, Rows, StateRates, YieldError, Yields};
+use jobs::yields::{self, Chains, KindRates, YieldError, Yields};
 use physics::table::TableSettings;
 use physics::table::contacts::Tie;
 use physics::table::run::{ACCOUNTED, Run};
@@ -210,7 +210,7 @@ fn of_yield(question: &yields::Request, yields: &Yields) -> Entries {
 }
 
 /// How long (s) attachments to traps last on average; `None` if there was none.
-fn mean_lifetime(traps: &[StateRates]) -> Option<f64> {
+fn mean_lifetime(traps: &[KindRates]) -> Option<f64> {
     let attachments: usize = traps.iter().map(|trap| trap.attachments).sum();
     let time: f64 = traps
         .iter()
@@ -282,7 +282,7 @@ fn against_yield(found: &Found, question: &yields::Request, yields: &Yields) -> 
 }
 
 /// The bonds of chains and rings beside those on the table.
-fn against_rows(found: &Found, built: &Rows) -> String {
+fn against_rows(found: &Found, built: &Chains) -> String {
     let (here, there) = (&found.statistics.bonds, &built.bonds);
     format!(
         "`tilebind yield` predicts {} bonds ({} to {}) in chains and rings, and here are {}{}",
@@ -676,7 +676,7 @@ fn pictures(found: &Found) -> Vec<Drawing<'_>> {
     let line = |of: fn(&Moment) -> Interval| {
         moments.iter().map(move |it| {
             let at = of(it);
-            Point {
+            ChartPoint {
                 x: it.time,
                 y: at.mean,
                 ends: at.low.zip(at.high).map(|(low, high)| [low.max(0.0), high]),

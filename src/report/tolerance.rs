@@ -7,7 +7,7 @@ use super::files::{PAGE, REPORT};
 use super::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;
 use jobs::output::Command;
-use jobs::tolerance::{Outcome, Tolerance};
+use jobs::tolerance::{Drawn, Tolerance};
 use physics::landscape::Proportion;
 use physics::units::{plain, share_to, share_with, si};
 
@@ -266,7 +266,7 @@ fn notes(design: &Design, found: &Tolerance) -> Vec<String> {
 /// Histograms, and bars of what matters.
 fn pictures(found: &Tolerance) -> Vec<Chart> {
     let bonds = found.outcomes.iter().map(|it| -it.bond).collect::<Vec<_>>();
-    let ratios = found.outcomes.iter().map(Outcome::selectivity);
+    let ratios = found.outcomes.iter().map(Drawn::selectivity);
     let ratios: Vec<f64> = ratios.filter(|it| it.is_finite()).collect();
     let count = || Dimension::new("draws", "draws");
     let mut charts = vec![

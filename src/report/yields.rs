@@ -8,11 +8,11 @@ use crate::docking::unsolved;
 use crate::document::{Document, Drawing, Entries, Table, entries, rows};
 use crate::figures::share as percent;
 use crate::files::{PAGE, REPORT};
-use crate::plots::chart::{Chart, Dimension, Look, Point};
+use crate::plots::chart::{Chart, ChartPoint, Dimension, Look};
 use jobs::design::Design;
 use jobs::output::Command;
 use jobs::yields::attachment::Source;
-use jobs::yields::{Outcome, Request, StateRates, YieldError, Yields};
+use jobs::yields::{KindRates, Request, Yield, YieldError, Yields};
 use physics::dynamics::MotionSettings;
 use physics::kinetics::OVERDAMPED;
 use physics::kinetics::population::mixture::Mixture;
@@ -202,14 +202,14 @@ fn mixture(found: &Yields) -> Value {
 }
 
 /// A requested kT, and its outcome.
-type AtKt<'a> = (f64, Result<&'a Outcome, Option<&'a YieldError>>);
+type AtKt<'a> = (f64, Result<&'a Yield, Option<&'a YieldError>>);
 
 // One line per column: key, name, meaning, value.
 #[rustfmt::skip]
 fn by_kt(request: &Request, found: &Yields) -> Table {
-    let of = |get: fn(&Outcome) -> f64| move |(_, at): &AtKt| at.ok().map(get);
-    let known = |get: fn(&Outcome) -> Option<f64>| move |(_, at): &AtKt| at.ok().and_then(get);
-    let inner = |get: fn(&Outcome) -> Table| move |(_, at): &AtKt| at.ok().map(get);
+    let of = |get: fn(&Yield) -> f64| move |(_, at): &AtKt| at.ok().map(get);
+    let known = |get: fn(&Yield) -> Option<f64>| move |(_, at): &AtKt| at.ok().and_then(get);
+    let inner = |get: fn(&Yield) -> Table| move |(_, at): &AtKt| at.ok().map(get);
     let simulated = |(_, at): &AtKt| at.ok().and_then(|it| it.simulated);
     let entry = |[mean, error]: [f64; 2]| json!({ "mean": mean, "standard_error": error });
     let describe = |[mean, error]: [f64; 2]| format!("{:.1} +- {:.1} %", 100.0 * mean, 200.0 * error);
@@ -253,13 +253,13 @@ fn mean_time(which: usize) -> impl Fn(&AtKt) -> String {
 }
 
 #[rustfmt::skip]
-fn states(outcome: &Outcome) -> Table {
-    let attached = |it: &StateRates| match outcome.attached.solved {
+fn states(outcome: &Yield) -> Table {
+    let attached = |it: &KindRates| match outcome.attached.solved {
         Some(_) => "-".to_owned(),
         None => format!("{} of {}", it.attachments, outcome.attached.runs),
     };
     // Of a state to which no attachment was counted only the upper ends of rates are known.
-    let limited = |it: &StateRates, rate: f64, ends: [f64; 2], text: &dyn Fn(f64) -> String| {
+    let limited = |it: &KindRates, rate: f64, ends: [f64; 2], text: &dyn Fn(f64) -> String| {
         match outcome.attached.counts_none(it.kind) {
             true => format!("below {}", text(ends[1])),
             false => text(rate),
@@ -310,7 +310,7 @@ fn lifetimes(request: &Request) -> String {
 }
 
 /// The method for shares over time.
-fn method(outcome: &Outcome) -> &'static str {
+fn method(outcome: &Yield) -> &'static str {
     match outcome.exact {
         true => "forward equation of all numbers of pairs",
         false => "mean numbers",
@@ -319,7 +319,7 @@ fn method(outcome: &Outcome) -> &'static str {
 
 // One line a column.
 #[rustfmt::skip]
-fn course(outcome: &Outcome) -> Table {
+fn course(outcome: &Yield) -> Table {
     rows(&outcome.course)
         .column("time_s", "time", "since the start", |it| it[0])
         .column("bound", "bound", "fraction of all pairs in the bond", |it| it[1])
@@ -330,7 +330,7 @@ fn course(outcome: &Outcome) -> Table {
 
 // One line a column.
 #[rustfmt::skip]
-fn crowds(outcome: &Outcome) -> Table {
+fn crowds(outcome: &Yield) -> Table {
     rows(&outcome.table)
         .column("tiles", "tiles", "on the table", |it| it.0)
         .column("coverage", "covered", "fraction of the table", |it| it.1)
@@ -375,10 +375,10 @@ fn pictures<'a>(request: &Request, found: &Yields) -> Vec<Drawing<'a>> {
     let mut all = vec![course, crowds];
     all.extend(best.rows.as_ref().map(chains::chart));
     if found.outcomes.len() > 1 {
-        let mut by_kt: Vec<&Outcome> = found.outcomes.iter().collect();
+        let mut by_kt: Vec<&Yield> = found.outcomes.iter().collect();
         by_kt.order_by(|a, b| a.kt.total_cmp(&b.kt));
         let kt = Dimension::new("kT_J", "kT").marked(by_kt.iter().map(|it| it.kt));
-        let bound = by_kt.iter().map(|it| Point {
+        let bound = by_kt.iter().map(|it| ChartPoint {
             x: it.kt,
             y: it.bound,
             ends: it
@@ -387,7 +387,7 @@ fn pictures<'a>(request: &Request, found: &Yields) -> Vec<Drawing<'a>> {
                 .all(|end| end.is_finite())
                 .then_some(it.interval),
         });
-        let points = |of: fn(&Outcome) -> f64| by_kt.iter().map(move |it| [it.kt, of(it)]);
+        let points = |of: fn(&Yield) -> f64| by_kt.iter().map(move |it| [it.kt, of(it)]);
         let equilibrium = points(|it| it.equilibrium.unwrap_or(f64::NAN));
         all.push(
             chart("shaking", "Bound over kT", kt, "fraction of all pairs")
@@ -400,7 +400,7 @@ fn pictures<'a>(request: &Request, found: &Yields) -> Vec<Drawing<'a>> {
 }
 
 /// The note on a bond to which no attachment was counted.
-fn uncounted(outcome: &Outcome) -> Option<String> {
+fn uncounted(outcome: &Yield) -> Option<String> {
     outcome.least_times?;
     Some(format!(
         "at kT = {} none of {} docking runs attached to the bond: its rates are upper limits and its \
@@ -411,7 +411,7 @@ fn uncounted(outcome: &Outcome) -> Option<String> {
 }
 
 /// The note on a share from mean numbers.
-fn of_means(outcome: &Outcome) -> String {
+fn of_means(outcome: &Yield) -> String {
     let kinds = outcome.states.len();
     let off = match outcome.off {
         Some(off) => format!(

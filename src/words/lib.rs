@@ -44,7 +44,7 @@ pub use constraint::Constraints;
 pub use effort::Effort;
 pub use fault::Fault;
 pub use lag::{Bar, BarError, Lags, PAPER_FACE};
-pub use rules::{Faces, Rules, Shape, WrongContact};
+pub use rules::{FaceShape, Faces, Rules, WrongContact};
 pub use set::Judgement;
 pub use word::Word;
 

@@ -30,7 +30,7 @@ impl Faces {
 
 /// The complementary shapes of the faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shape {
+pub enum FaceShape {
     /// None: faces slide.
     #[default]
     None,
@@ -40,7 +40,7 @@ pub enum Shape {
     Polar,
 }
 
-impl Shape {
+impl FaceShape {
     /// The name of each.
     pub const NAMES: [(&'static str, Self); 3] = [
         ("none", Self::None),
@@ -60,7 +60,7 @@ pub struct Rules {
     /// Which faces can meet, without a shape.
     pub faces: Faces,
     /// Their shapes.
-    pub shape: Shape,
+    pub shape: FaceShape,
     /// Tiles may lie upside down.
     pub flip: bool,
     /// The fault that one magnet of every face may have; bonds and wrong attractions are then those
@@ -143,15 +143,15 @@ impl Rules {
     /// Whether words meet words.
     pub fn words_meet(&self) -> bool {
         match self.shape {
-            Shape::None => self.faces != Faces::Mates,
-            Shape::Shared => true,
-            Shape::Polar => false,
+            FaceShape::None => self.faces != Faces::Mates,
+            FaceShape::Shared => true,
+            FaceShape::Polar => false,
         }
     }
 
     /// Whether faces slide along each other.
     pub fn slides(&self) -> bool {
-        self.shape == Shape::None
+        self.shape == FaceShape::None
     }
 
     /// Number of contacts of two words with this many places.

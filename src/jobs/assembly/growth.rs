@@ -10,15 +10,15 @@ use super::TileSet;
 use super::axis::{Axis, Met};
 
 /// A place: steps to the east and to the north of the seed.
-pub type Place = (i32, i32);
+pub type Site = (i32, i32);
 
 /// A grown assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grown {
     /// Tiles by place.
-    pub tiles: BTreeMap<Place, usize>,
+    pub tiles: BTreeMap<Site, usize>,
     /// The places in the order in which they were filled.
-    pub order: Vec<Place>,
+    pub order: Vec<Site>,
     /// Whether nothing more can be added.
     pub complete: bool,
     /// The number of places where more than one tile could have attached; the first of the set was
@@ -29,7 +29,7 @@ pub struct Grown {
 }
 
 /// The neighbour's offset on each side.
-pub const STEPS: [Place; 4] = [(0, 1), (1, 0), (0, -1), (-1, 0)];
+pub const STEPS: [Site; 4] = [(0, 1), (1, 0), (0, -1), (-1, 0)];
 
 /// The strength with which a tile binds its neighbour, by tile, side and neighbour.
 pub struct Holds {
@@ -53,7 +53,7 @@ impl Holds {
     }
 
     /// The sum of the strengths over the neighbours of a place.
-    pub fn at(&self, tiles: &BTreeMap<Place, usize>, place: Place, tile: usize) -> f64 {
+    pub fn at(&self, tiles: &BTreeMap<Site, usize>, place: Site, tile: usize) -> f64 {
         let hold = |(side, there)| Some(self.between(tile, side, *tiles.get(&there)?));
         neighbours(place)
             .map(|near| hold(near).unwrap_or(0.0))
@@ -62,14 +62,14 @@ impl Holds {
 }
 
 /// The sides of a place and the places there.
-pub fn neighbours(place: Place) -> impl Iterator<Item = (usize, Place)> {
-    let there = move |(dx, dy): Place| (place.0 + dx, place.1 + dy);
+pub fn neighbours(place: Site) -> impl Iterator<Item = (usize, Site)> {
+    let there = move |(dx, dy): Site| (place.0 + dx, place.1 + dy);
     STEPS.into_iter().map(there).enumerate()
 }
 
 /// Grows up to `most` tiles from the seed, or from the set's first tile.
 pub fn grow(set: &TileSet, most: usize) -> Grown {
-    let mut tiles: BTreeMap<Place, usize> = BTreeMap::new();
+    let mut tiles: BTreeMap<Site, usize> = BTreeMap::new();
     for (row, column, tile) in &set.seed {
         let (first_row, first_column, _) = set.seed[0];
         let east = *column as i32 - first_column as i32;
@@ -80,9 +80,9 @@ pub fn grow(set: &TileSet, most: usize) -> Grown {
     }
     let holds = Holds::new(set);
     let tau = set.tau() - 1e-9;
-    let order: Vec<Place> = tiles.keys().copied().collect();
+    let order: Vec<Site> = tiles.keys().copied().collect();
     let around = order.iter().flat_map(|it| neighbours(*it).map(|it| it.1));
-    let mut open: VecDeque<Place> = around.collect();
+    let mut open: VecDeque<Site> = around.collect();
     let mut grown = Grown {
         seeds: tiles.len(),
         tiles,
@@ -140,10 +140,10 @@ impl Grown {
     }
 
     /// The corners of the bounding box.
-    pub fn extent(&self) -> [Place; 2] {
+    pub fn extent(&self) -> [Site; 2] {
         // The first one lies at the origin.
         let ends = |pick: fn(i32, i32) -> i32| {
-            let both = |a: Place, b: &Place| (pick(a.0, b.0), pick(a.1, b.1));
+            let both = |a: Site, b: &Site| (pick(a.0, b.0), pick(a.1, b.1));
             self.tiles.keys().fold((0, 0), both)
         };
         [ends(i32::min), ends(i32::max)]

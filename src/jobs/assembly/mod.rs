@@ -50,7 +50,7 @@ use std::collections::HashSet;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use crate::design::{DesignError, Place};
+use crate::design::{DesignError, FilePlace};
 use crate::text::{check_visible, is_invisible};
 
 pub use assembled::{Assembly, Growing};
@@ -288,6 +288,6 @@ pub(crate) fn fault(
             .or_else(|| named("\"name\": \"", "\""))
             .or_else(|| text.find(needle)),
     };
-    let place = at.map(|at| Place::of(text, at..at + needle.len()));
+    let place = at.map(|at| FilePlace::of(text, at..at + needle.len()));
     DesignError::new(file, place, message, help)
 }

@@ -6,7 +6,7 @@ use super::lattice;
 use crate::design::MagnetModel;
 use crate::request;
 use crate::word_sets;
-use physics::words::{Rules, Shape};
+use physics::words::{FaceShape, Rules};
 
 /// The least gap if none is requested.
 const GAP: f64 = 0.5;
@@ -57,7 +57,7 @@ pub struct Request {
     /// slots. The designs are written with flat faces in any case.
     #[arg(long, value_name = "KIND", default_value = "none", value_parser = word_sets::shape(),
           hide_possible_values = true)]
-    pub shape: Shape,
+    pub shape: FaceShape,
 
     /// Distance between magnet positions (m) [default: the design's, or 0.04]
     #[arg(long, value_name = "M", value_parser = request::length)]

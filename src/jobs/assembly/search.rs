@@ -6,7 +6,7 @@ use crate::design::Design;
 use crate::word_sets::{self, file};
 use physics::observer::Observer;
 use physics::units::si;
-use physics::words::{Bar, Shape, Word};
+use physics::words::{Bar, FaceShape, Word};
 
 /// The result of a search.
 pub(super) struct Sought {
@@ -84,7 +84,7 @@ impl Request {
 }
 
 /// Describes which words are missing, and whether there can be more.
-fn missing(choice: &Choice, shape: Shape) -> String {
+fn missing(choice: &Choice, shape: FaceShape) -> String {
     let classes = &choice.classes;
     let sum = |of: fn(&Class) -> usize| classes.iter().map(of).sum::<usize>();
     let magnets = |class: &Class| match class.magnets {
@@ -102,7 +102,7 @@ fn missing(choice: &Choice, shape: Shape) -> String {
         None => "more may exist; increase --seconds to search longer".to_owned(),
     };
     let shaped = match shape {
-        Shape::None => "faces whose shape prevents slid contacts (--shape shared), ",
+        FaceShape::None => "faces whose shape prevents slid contacts (--shape shared), ",
         _ => "",
     };
     format!(

@@ -8,7 +8,7 @@ use std::fmt::Write;
 use std::ops::RangeInclusive;
 
 use super::{ENERGIES, Glue, SHARES, STRENGTHS, TileSet, TileType, in_range};
-use crate::design::{DesignError, Place, nearest_help};
+use crate::design::{DesignError, FilePlace, nearest_help};
 
 struct Scanner<'a> {
     text: &'a str,
@@ -33,7 +33,7 @@ impl<'a> Scanner<'a> {
     }
 
     fn wrong(&self, message: String, help: &str) -> DesignError {
-        let place = Place::of(self.text, self.at..self.at + 1);
+        let place = FilePlace::of(self.text, self.at..self.at + 1);
         DesignError::new(self.file, Some(place), message, help)
     }
 

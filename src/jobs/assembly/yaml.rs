@@ -9,7 +9,7 @@ use std::rc::Rc;
 
 use saphyr_parser::{Event, Parser, ScalarStyle, Span};
 
-use crate::design::{DesignError, Place};
+use crate::design::{DesignError, FilePlace};
 
 /// Deepest nesting of lists and mappings; a tile set needs five.
 const DEEPEST: usize = 16;
@@ -115,7 +115,7 @@ impl Source<'_> {
         let byte = |index| self.text.char_indices().nth(index);
         let byte = |index| byte(index).map_or(self.text.len(), |(at, _)| at);
         let (start, end) = (byte(at.start), byte(at.end.max(at.start + 1)));
-        let place = Place::of(self.text, start..end);
+        let place = FilePlace::of(self.text, start..end);
         DesignError::new(self.file, Some(place), message, help)
     }
 

@@ -2,7 +2,7 @@
 //!
 //! A new quantity needs only one entry in [`QUANTITIES`]: files, the tables of `compare`, pages,
 //! the curves and maps of sweeps, the picture of the ranking and `--by` all read it from there.
-//! Columns in files have the order of the entries; tables and pictures are arranged by [`Place`]s.
+//! Columns in files have the order of the entries; tables and pictures are arranged by [`Slot`]s.
 
 use std::collections::BTreeMap;
 
@@ -96,7 +96,7 @@ const INTERVAL: Option<[&str; 2]> = Some(["low", "high"]);
 
 /// The position of a quantity among others, from 0. The two sides of a range share a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
+pub struct Slot {
     /// The table, the row of panels, or the plot of the ranking.
     pub row: u8,
     /// The column in it; in the ranking's plots, the colour.
@@ -105,8 +105,8 @@ pub struct Place {
     pub heading: &'static str,
 }
 
-const fn at(row: u8, column: u8, heading: &'static str) -> Option<Place> {
-    Some(Place {
+const fn at(row: u8, column: u8, heading: &'static str) -> Option<Slot> {
+    Some(Slot {
         row,
         column,
         heading,
@@ -125,14 +125,14 @@ pub struct Quantity {
     /// The suffixes of its bounds in files, `None` if it has none.
     pub bounds: Option<[&'static str; 2]>,
     /// Its place in the tables of `compare`.
-    pub column: Option<Place>,
+    pub column: Option<Slot>,
     /// Its place among a sweep's curves.
-    pub panel: Option<Place>,
+    pub panel: Option<Slot>,
     /// Whether a sweep's maps also show its panel.
     pub mapped: bool,
     /// Its place in the picture of the ranking, with its name there: a bar among the depths (row 0;
     /// a ratio is written beside the bars), or a point among the barriers (1) or captures (2).
-    pub ranking: Option<Place>,
+    pub ranking: Option<Slot>,
     /// The page's name for the design with the largest value.
     pub most: Option<&'static str>,
     /// Whether the page shows it for the point under the pointer.
@@ -299,9 +299,7 @@ impl Quantity {
 }
 
 /// The quantities that have a place, in the order of places; those of one place are grouped.
-pub fn placed(
-    place: impl Fn(&Quantity) -> Option<Place>,
-) -> BTreeMap<Place, Vec<&'static Quantity>> {
+pub fn placed(place: impl Fn(&Quantity) -> Option<Slot>) -> BTreeMap<Slot, Vec<&'static Quantity>> {
     let mut places = BTreeMap::<_, Vec<_>>::new();
     for quantity in QUANTITIES {
         if let Some(place) = place(quantity) {

@@ -25,7 +25,7 @@ pub struct DesignError {
     /// The file's name, as it was given.
     pub file: String,
     /// The place in the file; `None` if the file as a whole is at fault (it cannot be read).
-    pub place: Option<Box<Place>>,
+    pub place: Option<Box<FilePlace>>,
     /// What is wrong.
     pub message: String,
     /// How to fix it.
@@ -39,7 +39,7 @@ const MOST_TOLD: usize = 20;
 
 /// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct FilePlace {
     /// Line, counted from 1.
     pub line: usize,
     /// Column in characters, counted from 1.
@@ -51,7 +51,7 @@ pub struct Place {
     pub source: Option<String>,
 }
 
-impl Place {
+impl FilePlace {
     /// The place of a range of bytes of `text`; a range over several lines ends with the first.
     pub(super) fn new(text: &str, span: Span) -> Self {
         let start = floor_char_boundary(text, span.start);
@@ -117,7 +117,7 @@ impl DesignError {
     /// A single fault of a file.
     pub fn new(
         file: &str,
-        place: Option<Place>,
+        place: Option<FilePlace>,
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> Self {

@@ -74,13 +74,13 @@ mod word_stage;
 pub mod written;
 
 pub use drawings::Drawing;
-pub use error::{DesignError, Place};
+pub use error::{DesignError, FilePlace};
 pub(crate) use file::read_text;
 pub use physics::potential::MagnetModel;
 pub(crate) use reader::nearest_help;
 pub use schema::{SCHEMA, STARTER};
 pub(crate) use starting::check_name;
-pub use starting::{Material, Shape, ShopMagnet, Start, StartError};
+pub use starting::{Material, ProfileShape, ShopMagnet, Start, StartError};
 pub use units::{angle, area, density, energy, frequency, length, rate, speed, spin, time};
 pub use weight::Weight;
 pub use word_set::WordSet;
@@ -190,7 +190,7 @@ impl Design {
             }),
             Err(error) => {
                 let text = String::from_utf8_lossy(&bytes[..error.at]);
-                let place = Place::of(&text, text.len()..text.len());
+                let place = FilePlace::of(&text, text.len()..text.len());
                 Err(DesignError::new(
                     &file,
                     Some(place),

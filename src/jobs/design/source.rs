@@ -1,7 +1,7 @@
 //! The text that a design is read from.
 
 use super::drawings::Drawings;
-use super::error::{DesignError, Place, Span};
+use super::error::{DesignError, FilePlace, Span};
 use super::faults::Faults;
 
 /// A design file's name and text, to which the places of faults refer.
@@ -37,7 +37,7 @@ impl Source<'_> {
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> DesignError {
-        let mut place = Place::new(self.text, span);
+        let mut place = FilePlace::new(self.text, span);
         place.source = place.source.filter(|_| self.quoted);
         DesignError::new(self.file, Some(place), message, help)
     }

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::crowds::Named;
 use super::{Request, of_assembly, of_designs};
 use crate::Refused;
-use crate::assembly::{self, growth::Place, kinetic::Growth};
+use crate::assembly::{self, growth::Site, kinetic::Growth};
 use crate::design::{Design, MagnetModel};
 use crate::request::{Misused, of_keywords};
 use physics::observer::Silent;
@@ -29,7 +29,7 @@ pub struct About {
     /// The model of the magnets.
     pub model: MagnetModel,
     /// For a tile set, the target assembly: tiles by place.
-    pub pattern: Option<BTreeMap<Place, usize>>,
+    pub pattern: Option<BTreeMap<Site, usize>>,
     /// For a tile set, its growth from a seed as `tilebind assemble` simulates it.
     pub growth: Option<Growth>,
 }

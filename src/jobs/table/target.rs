@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::statistics::in_target;
 use super::{About, Interval};
-use crate::assembly::growth::{Place, STEPS};
+use crate::assembly::growth::{STEPS, Site};
 use petgraph::algo::maximum_matching;
 use petgraph::graph::UnGraph;
 use physics::table::contacts::{Tie, cluster_of_each};
@@ -101,10 +101,10 @@ fn matched(pairs: &[[usize; 2]]) -> usize {
 
 /// For the cluster that contains most of the pattern: the number of its tiles in place, and of its
 /// others.
-fn grown(crowd: &Crowd, pattern: &BTreeMap<Place, usize>, run: &Run) -> (usize, usize) {
+fn grown(crowd: &Crowd, pattern: &BTreeMap<Site, usize>, run: &Run) -> (usize, usize) {
     let held = run.samples.last().map_or(&[][..], |last| &last.held);
     let tiles = run.movers.len();
-    let mut bound: Vec<Vec<(usize, Place)>> = vec![Vec::new(); tiles];
+    let mut bound: Vec<Vec<(usize, Site)>> = vec![Vec::new(); tiles];
     for held in held.iter().filter(|held| held.tie == Tie::Bond) {
         let [a, b] = held.tiles;
         for (one, other) in [(a, b), (b, a)] {
@@ -137,7 +137,7 @@ fn grown(crowd: &Crowd, pattern: &BTreeMap<Place, usize>, run: &Run) -> (usize, 
 }
 
 /// The step on the pattern from a tile to one bound to it.
-fn step(crowd: &Crowd, [one, other]: [&Mover; 2]) -> Place {
+fn step(crowd: &Crowd, [one, other]: [&Mover; 2]) -> Site {
     let [a, b] = [one, other].map(|it| it.motion(crowd).configuration);
     let p = a.inverse_transform(b.position());
     let [north, east, south, west] = STEPS;
@@ -150,7 +150,7 @@ fn step(crowd: &Crowd, [one, other]: [&Mover; 2]) -> Place {
 }
 
 /// The relative places of all tiles connected to one by bonds.
-fn placed(first: usize, bound: &[Vec<(usize, Place)>]) -> BTreeMap<usize, Place> {
+fn placed(first: usize, bound: &[Vec<(usize, Site)>]) -> BTreeMap<usize, Site> {
     let mut places = BTreeMap::from([(first, (0, 0))]);
     let mut open = vec![first];
     while let Some(tile) = open.pop() {
@@ -167,8 +167,8 @@ fn placed(first: usize, bound: &[Vec<(usize, Place)>]) -> BTreeMap<usize, Place>
 
 /// The largest number of tiles, given by kind and place, that match a pattern over all shifts of
 /// it.
-fn overlap(pattern: &BTreeMap<Place, usize>, tiles: &[(usize, Place)]) -> usize {
-    let mut shifts: BTreeMap<Place, usize> = BTreeMap::new();
+fn overlap(pattern: &BTreeMap<Site, usize>, tiles: &[(usize, Site)]) -> usize {
+    let mut shifts: BTreeMap<Site, usize> = BTreeMap::new();
     for (kind, at) in tiles {
         for (there, _) in pattern.iter().filter(|(_, other)| *other == kind) {
             *shifts.entry((there.0 - at.0, there.1 - at.1)).or_default() += 1;

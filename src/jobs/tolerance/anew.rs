@@ -1,12 +1,12 @@
 //! Checks of followed states: exact energies, and full searches.
 
 use super::made::{Draw, Maker};
-use super::{Outcome, Request, Study, working};
+use super::{Drawn, Request, Study, working};
 use crate::design::Design;
 use crate::pipeline;
 use ordered_float::OrderedFloat;
 use physics::configuration::Configuration;
-use physics::landscape::minimum::{Outcome as End, descend};
+use physics::landscape::minimum::{self, descend};
 use physics::landscape::{Proportion, stationary};
 use physics::observer::{Observer, Silent};
 use physics::parallel;
@@ -59,13 +59,13 @@ fn at_rest(problem: &Problem, q: &Configuration) -> f64 {
         return found.point.energy;
     }
     match descend(problem, q).outcome {
-        End::Minimum(found) => found.point.energy,
+        minimum::Outcome::Minimum(found) => found.point.energy,
         _ => problem.energy(q),
     }
 }
 
 /// Minimises bond and deepest trap of the first draws with exact energies.
-pub(super) fn exact(study: &Study, maker: &Maker, draws: &[Draw], outcomes: &[Outcome]) -> Exact {
+pub(super) fn exact(study: &Study, maker: &Maker, draws: &[Draw], outcomes: &[Drawn]) -> Exact {
     let count = draws.len().min(EXACT);
     let errors = parallel::map(0..count, |k| {
         let problem = design(study, maker, &draws[k]).problem();
@@ -94,7 +94,7 @@ pub(super) fn anew(
     study: &Study,
     maker: &Maker,
     draws: &[Draw],
-    outcomes: &[Outcome],
+    outcomes: &[Drawn],
     (request, least): (&Request, f64),
     observer: &dyn Observer,
 ) -> Option<Anew> {
@@ -120,7 +120,7 @@ pub(super) fn anew(
         };
         let bond = deepest(&|q| nominal.space.distance(q, &own) < within);
         let trap = deepest(&|q| nominal.distance_to_bond(q) >= within);
-        Outcome {
+        Drawn {
             // Without a minimum at the contact, there is no bond.
             bond: bond.unwrap_or(0.0),
             trap,
@@ -129,7 +129,7 @@ pub(super) fn anew(
     });
     let followed = &outcomes[..count];
     let both = || followed.iter().zip(&found);
-    let largest = |of: &dyn Fn(&Outcome) -> f64| {
+    let largest = |of: &dyn Fn(&Drawn) -> f64| {
         let relative = both().map(|(a, b)| ((of(a) - of(b)) / of(b).abs().max(1e-300)).abs());
         relative.fold(0.0, f64::max)
     };

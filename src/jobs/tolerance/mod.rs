@@ -85,7 +85,7 @@ impl Unanswered for ToleranceError {
 
 /// A drawn pair of tiles. Energies in J.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
+pub struct Drawn {
     /// Energy of the bond.
     pub bond: f64,
     /// Energy of the deepest trap; `None` if there is none.
@@ -96,7 +96,7 @@ pub struct Outcome {
     pub is_flipped: bool,
 }
 
-impl Outcome {
+impl Drawn {
     /// Whether the bond is lost: no energy is gained there.
     pub fn is_lost(&self) -> bool {
         self.bond >= 0.0
@@ -222,9 +222,9 @@ pub struct Tolerance {
     /// The seed.
     pub seed: u64,
     /// The draws, by number.
-    pub outcomes: Vec<Outcome>,
+    pub outcomes: Vec<Drawn>,
     /// The nominal pair.
-    pub nominal: Outcome,
+    pub nominal: Drawn,
     /// The bond's energy (J).
     pub bond: Spread,
     /// The bond's depth over the deepest trap's; `None` without traps.
@@ -294,13 +294,13 @@ impl Request {
         &self,
         study: &Study,
         maker: &Maker,
-        (draws, outcomes): (&[Draw], Vec<Outcome>),
+        (draws, outcomes): (&[Draw], Vec<Drawn>),
         observer: &dyn Observer,
     ) -> Tolerance {
         let least = self.making.least_selectivity();
         let nominal = study.outcome(&expansion::unchanged(&study.design.pair));
         let n = outcomes.len();
-        let share = |holds: &dyn Fn(&Outcome) -> bool| {
+        let share = |holds: &dyn Fn(&Drawn) -> bool| {
             Proportion::new(outcomes.iter().filter(|it| holds(it)).count(), n)
         };
         let bond = Spread::new(nominal.bond, outcomes.iter().map(|it| it.bond));
@@ -308,12 +308,12 @@ impl Request {
             (
                 "no_bond",
                 "the bond does not attract".to_owned(),
-                share(&Outcome::is_lost),
+                share(&Drawn::is_lost),
             ),
             (
                 "not_deepest",
                 "a trap is deeper than the bond".to_owned(),
-                share(&Outcome::is_beaten),
+                share(&Drawn::is_beaten),
             ),
             (
                 "selectivity",
@@ -322,7 +322,7 @@ impl Request {
             ),
         ];
         let beats = self.beats.unwrap_or(1.0 / least);
-        let beaten = |it: &Outcome| it.trap.is_some_and(|trap| trap < beats * nominal.bond);
+        let beaten = |it: &Drawn| it.trap.is_some_and(|trap| trap < beats * nominal.bond);
         let held_back = |draw: &&Draw| draw.iter().flatten().any(|it| it.pushed.norm() > 0.0);
         let (matters, variance) = study.matters(draws);
         observer.stage("exact energies", 0.85);
@@ -335,7 +335,7 @@ impl Request {
             selectivity: nominal.trap.is_some().then(|| {
                 Spread::new(
                     nominal.selectivity(),
-                    outcomes.iter().map(Outcome::selectivity),
+                    outcomes.iter().map(Drawn::selectivity),
                 )
             }),
             works: working(&outcomes, least),
@@ -374,7 +374,7 @@ pub fn robust(
 }
 
 /// The share of draws that work.
-fn working(outcomes: &[Outcome], least_selectivity: f64) -> Proportion {
+fn working(outcomes: &[Drawn], least_selectivity: f64) -> Proportion {
     let working = outcomes.iter().filter(|it| it.works(least_selectivity));
     Proportion::new(working.count(), outcomes.len())
 }
@@ -475,7 +475,7 @@ impl<'a> Study<'a> {
     }
 
     /// Draws pairs of tiles; how many are done is told.
-    fn draw(&self, maker: &Maker, count: usize, tell: &dyn Fn(usize)) -> (Vec<Draw>, Vec<Outcome>) {
+    fn draw(&self, maker: &Maker, count: usize, tell: &dyn Fn(usize)) -> (Vec<Draw>, Vec<Drawn>) {
         let all = parallel::map_in_batches(0..count, BATCH, tell, |number| {
             let draw = maker.draw(number);
             let outcome = self.outcome(&draw);
@@ -484,14 +484,14 @@ impl<'a> Study<'a> {
         all.into_iter().unzip()
     }
 
-    fn outcome(&self, draw: &Draw) -> Outcome {
+    fn outcome(&self, draw: &Draw) -> Drawn {
         let placed = Placed::of(&self.design.pair, draw);
         let unmoved: Vec<f64> = self.traps.iter().map(|it| it.unmoved(&placed)).collect();
         let deepest = unmoved.iter().copied().fold(0.0, f64::min);
         let close = (0..unmoved.len()).filter(|&k| unmoved[k] <= MOVED * deepest);
         let moved = close.map(|k| (self.traps[k].energy(&placed).0, k));
         let trap = moved.min_by_key(|(energy, k)| (OrderedFloat(*energy), *k));
-        Outcome {
+        Drawn {
             bond: self.bond.energy(&placed).0,
             trap: trap.map(|(energy, _)| energy),
             which: trap.map(|(_, k)| k),
@@ -567,7 +567,7 @@ impl<'a> Study<'a> {
     }
 
     /// Each magnet that takes part in the bond, flipped.
-    fn flipped(&self, draws: &[Draw], outcomes: &[Outcome]) -> Vec<Flipped> {
+    fn flipped(&self, draws: &[Draw], outcomes: &[Drawn]) -> Vec<Flipped> {
         let ordinary = outcomes.iter().filter(|it| !it.is_flipped);
         let mut ordinary: Vec<f64> = ordinary.map(|it| it.bond).collect();
         if ordinary.is_empty() {

@@ -8,12 +8,12 @@ use super::anew::SAME_BOND;
 use super::made::Maker;
 use super::request::MakingErrors;
 use super::well::Well;
-use super::{Outcome, Pairs, Spread, Study, expansion, working};
+use super::{Drawn, Pairs, Spread, Study, expansion, working};
 use crate::design::Design;
 use nalgebra::Vector2;
 use physics::configuration::Configuration;
 use physics::landscape::Proportion;
-use physics::landscape::minimum::{Outcome as End, descend};
+use physics::landscape::minimum::{self, descend};
 use physics::parallel;
 use physics::problem::Problem;
 use physics::tile::{Magnet, Pair, Tile};
@@ -36,7 +36,7 @@ pub struct Safer {
     /// By how much (m): added to the inset, or to the distance of neighbours.
     pub by: f64,
     /// The nominal pair.
-    pub nominal: Outcome,
+    pub nominal: Drawn,
     /// The bond's energy (J).
     pub bond: Spread,
     /// The share of the draws that work.
@@ -50,7 +50,7 @@ pub struct Safer {
 pub(super) fn safer(
     study: &Study,
     (making, seed): (&MakingErrors, u64),
-    outcomes: &[Outcome],
+    outcomes: &[Drawn],
 ) -> Vec<Safer> {
     let pair = &study.design.pair;
     let sizes = [&pair.fixed, &pair.moving].map(Tile::largest_magnet);
@@ -95,7 +95,7 @@ fn followed<'a>(
     making: &MakingErrors,
 ) -> Option<Study<'a>> {
     let rest = |q: &Configuration| match descend(problem, q).outcome {
-        End::Minimum(found) => Some(found.point.q),
+        minimum::Outcome::Minimum(found) => Some(found.point.q),
         _ => None,
     };
     let pairs = Pairs::new(design, making);

@@ -6,7 +6,7 @@ use super::least_spacing;
 use crate::design::MagnetModel;
 use crate::request::{self, Word};
 use physics::words::word::MOST_PLACES;
-use physics::words::{Bar, Constraints, Faces, Fault, Rules, Shape};
+use physics::words::{Bar, Constraints, FaceShape, Faces, Fault, Rules};
 
 /// The options of a search for words.
 #[derive(Clone, Debug, Args)]
@@ -47,7 +47,7 @@ pub struct Request {
     /// slots.
     #[arg(long, value_name = "KIND", default_value = "none", value_parser = shape(),
           hide_possible_values = true)]
-    pub shape: Shape,
+    pub shape: FaceShape,
 
     /// Tiles can lie upside down: every face can also be turned over
     #[arg(long)]
@@ -189,7 +189,7 @@ impl Request {
 
     /// Which contacts are wrong.
     pub(super) fn rules(&self) -> Result<Rules, String> {
-        if self.own && self.shape == Shape::Polar {
+        if self.own && self.shape == FaceShape::Polar {
             return Err(
                 "--self: a knob does not meet its own kind; use --shape shared or leave it out"
                     .to_owned(),
@@ -243,8 +243,11 @@ pub fn gap(text: &str) -> Result<f64, String> {
 }
 
 /// A complementary shape.
-pub fn shape() -> Word<Shape> {
-    Word::new(&Shape::NAMES, "a shape is none, shared or polar".to_owned())
+pub fn shape() -> Word<FaceShape> {
+    Word::new(
+        &FaceShape::NAMES,
+        "a shape is none, shared or polar".to_owned(),
+    )
 }
 
 fn faces() -> Word<Faces> {

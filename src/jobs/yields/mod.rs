@@ -24,7 +24,7 @@ use crate::pipeline;
 use crate::request::{self, Unanswered};
 use attachment::AttachmentOptions;
 pub use attachment::Source;
-pub use outcome::{Outcome, StateRates};
+pub use outcome::{KindRates, Yield};
 use outcome::{outcome, state};
 use physics::dynamics::docking::{DockingError, MOST_REPEATS};
 use physics::kinetics::bond::volume::NO_PLAY;
@@ -35,7 +35,7 @@ use physics::kinetics::population::rows::Joints;
 use physics::kinetics::rates::RatesError;
 use physics::observer::Observer;
 use physics::units::{plain, si};
-pub use rows::{Count, Mean, Rows};
+pub use rows::{Chains, Count, Mean};
 
 /// Largest number of settings.
 const MOST_SETTINGS: usize = 20;
@@ -199,7 +199,7 @@ pub struct Yields {
     /// The tiles and their table.
     pub crowd: Crowd,
     /// The outcomes by kT, in the requested order.
-    pub outcomes: Vec<Outcome>,
+    pub outcomes: Vec<Yield>,
     /// The kT (J) without an outcome, and why; in the requested order.
     pub without: Vec<(f64, YieldError)>,
     /// The best schedule of the settings, and the number of tiles it is for (at most six); `None`
@@ -209,7 +209,7 @@ pub struct Yields {
 
 impl Yields {
     /// The outcome at one of the requested kT (J), or why there is none.
-    pub fn at(&self, kt: f64) -> Result<&Outcome, Option<&YieldError>> {
+    pub fn at(&self, kt: f64) -> Result<&Yield, Option<&YieldError>> {
         let found = self.outcomes.iter().find(|outcome| outcome.kt == kt);
         found.ok_or_else(|| {
             let mut without = self.without.iter();
@@ -218,7 +218,7 @@ impl Yields {
     }
 
     /// The setting that yields most.
-    pub fn best(&self) -> &Outcome {
+    pub fn best(&self) -> &Yield {
         let all = self.outcomes.iter();
         all.reduce(|best, next| if next.bound > best.bound { next } else { best })
             .expect("there is at least one setting")
@@ -278,7 +278,7 @@ pub fn yields(
             kt,
             coverage: request.coverage,
         };
-        let states: Vec<StateRates> = holds
+        let states: Vec<KindRates> = holds
             .iter()
             .enumerate()
             .filter_map(|(kind, hold)| state(hold, kind, &attached, &shaking))

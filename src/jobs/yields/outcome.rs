@@ -2,7 +2,7 @@
 
 use super::Request;
 use super::attachment::Attachments;
-use super::rows::{Rows, rows};
+use super::rows::{Chains, rows};
 use physics::dynamics::docking::stream;
 use physics::dynamics::exits::mean_and_error;
 use physics::kinetics::bond::{Hold, Shaking, TOLERANCE};
@@ -25,7 +25,7 @@ const MOST_IN_TABLE: usize = 600;
 
 /// One kind of state at one setting.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StateRates {
+pub struct KindRates {
     /// `A` for the bond, `B` for the deepest trap.
     pub name: String,
     /// Its index among all kinds of states: 0 for the bond.
@@ -50,11 +50,11 @@ pub struct StateRates {
 
 /// The outcome of one setting.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
+pub struct Yield {
     /// kT (J).
     pub kt: f64,
     /// The bond first, then the traps that caught anything.
-    pub states: Vec<StateRates>,
+    pub states: Vec<KindRates>,
     /// Rates of the pair.
     pub rates: PairRates,
     /// The attachments from which the rates follow.
@@ -87,7 +87,7 @@ pub struct Outcome {
     /// Tiles, coverage, share in the bond at the end, and whether all probabilities were computed.
     pub table: Vec<(usize, f64, f64, bool)>,
     /// Chains and rings, of equal tiles that bind with two faces.
-    pub rows: Option<Rows>,
+    pub rows: Option<Chains>,
 }
 
 /// The rates of one kind of state; `None` for a trap without attachments, and for a state without
@@ -97,7 +97,7 @@ pub(super) fn state(
     kind: usize,
     attached: &Attachments,
     shaking: &Shaking,
-) -> Option<StateRates> {
+) -> Option<KindRates> {
     let count = attached.counts[kind];
     let on = attached.rate(kind);
     if kind > 0 && (on == 0.0 || !hold.holds_at(shaking.kt)) {
@@ -111,7 +111,7 @@ pub(super) fn state(
     let constant = hold.association(&docking);
     let on_interval = attached.interval(kind);
     let off = attached.off(kind).unwrap_or(on / constant);
-    Some(StateRates {
+    Some(KindRates {
         name: hold.name.clone(),
         kind,
         attachments: count,
@@ -131,12 +131,12 @@ pub(super) fn state(
 /// The outcome of a setting with given rates of the states.
 pub(super) fn outcome(
     kt: f64,
-    states: Vec<StateRates>,
+    states: Vec<KindRates>,
     attached: Attachments,
     (crowd, pair): (&Crowd, &Pair),
     joints: Option<(&Joints, &Hold)>,
     request: &Request,
-) -> Outcome {
+) -> Yield {
     let rates = PairRates {
         on: states.iter().map(|state| state.on).collect(),
         off: states.iter().map(|state| state.off).collect(),
@@ -213,7 +213,7 @@ pub(super) fn outcome(
     let smooth = rates.mean_numbers(crowd, &[time]);
     // Known without attachments too, since it does not depend on their rate.
     let equilibrium = rates.equilibrium(crowd).or_else(|| high.equilibrium(crowd));
-    Outcome {
+    Yield {
         kt,
         bound,
         trapped: *found[0].trapped.last().expect("as above"),

@@ -58,7 +58,7 @@ pub struct Count {
 
 /// What equal tiles build at one kT.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rows {
+pub struct Chains {
     /// The longest chain that has room, if there is one.
     pub longest: Option<usize>,
     /// The rings.
@@ -91,7 +91,7 @@ pub(super) fn rows(
     times: &[f64],
     crowd: &Crowd,
     request: &Request,
-) -> Option<Rows> {
+) -> Option<Chains> {
     let tiles = request.tiles;
     let most = (MOST_TILES / tiles).max(LEAST_RUNS);
     let runs = request.simulations.min(most);
@@ -176,7 +176,7 @@ pub(super) fn rows(
         })
     });
     let longest = joints.longest(tiles.min(MOST_IN_RING) + 1);
-    Some(Rows {
+    Some(Chains {
         longest,
         closings: closings
             .filter(|it| longest.is_none_or(|longest| it.size <= longest))

@@ -1,7 +1,7 @@
 //! Schedules: which shaking at which time.
 
 use super::Request;
-use super::outcome::Outcome;
+use super::outcome::Yield;
 use physics::kinetics::bond::{Hold, Shaking, TOLERANCE};
 use physics::kinetics::population::mixture::{self, Mixture};
 use physics::kinetics::population::numbers::{self, Numbers};
@@ -19,7 +19,7 @@ const FLEETING: f64 = 10.0;
 /// The best schedule of the settings, and the number of tiles it is for: the requested number, but
 /// at most six, and fewer if there are too many kinds of traps.
 pub(super) fn best(
-    outcomes: &[Outcome],
+    outcomes: &[Yield],
     holds: &[&Hold],
     request: &Request,
     crowd: &Crowd,
@@ -57,7 +57,7 @@ pub(super) fn best(
 }
 
 /// Attachment and detachment rates of a state at a setting, if it has attachments there.
-fn rates_of(outcome: &Outcome, hold: &Hold) -> Option<[f64; 2]> {
+fn rates_of(outcome: &Yield, hold: &Hold) -> Option<[f64; 2]> {
     let states = outcome.states.iter();
     let mut own = states.filter(|state| state.name == hold.name);
     own.next().map(|state| [state.on, state.off])
@@ -65,7 +65,7 @@ fn rates_of(outcome: &Outcome, hold: &Hold) -> Option<[f64; 2]> {
 
 /// The rates of all kinds of states at a setting. A state without attachments there, but with some
 /// at other settings, detaches by detailed balance with their mean attachment rate.
-fn rates(outcomes: &[Outcome], outcome: &Outcome, kinds: &[&Hold], coverage: f64) -> PairRates {
+fn rates(outcomes: &[Yield], outcome: &Yield, kinds: &[&Hold], coverage: f64) -> PairRates {
     let known = |hold: &&Hold| rates_of(outcome, hold);
     let fastest = kinds.iter().filter_map(known).map(|rates| rates[1]);
     let fastest = fastest.fold(0.0, f64::max);

@@ -212,7 +212,7 @@ pub enum Look {
 
 /// A point with the interval of its y; NaN if it is not known.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub struct ChartPoint {
     /// The abscissa.
     pub x: f64,
     /// The vertical axis.
@@ -221,7 +221,7 @@ pub struct Point {
     pub ends: Option<[f64; 2]>,
 }
 
-impl From<[f64; 2]> for Point {
+impl From<[f64; 2]> for ChartPoint {
     fn from([x, y]: [f64; 2]) -> Self {
         Self { x, y, ends: None }
     }
@@ -237,12 +237,12 @@ pub struct Series {
     /// The index of its colour; beyond the last colour lines are dashed.
     pub colour: usize,
     /// The points, from left to right.
-    pub points: Vec<Point>,
+    pub points: Vec<ChartPoint>,
 }
 
 impl Series {
     /// A series with a colour by its index.
-    pub fn new<P: Into<Point>>(
+    pub fn new<P: Into<ChartPoint>>(
         name: impl Into<String>,
         look: Look,
         colour: usize,
@@ -320,7 +320,7 @@ impl Chart {
     }
 
     /// Adds a series in a new colour.
-    pub fn with<P: Into<Point>>(
+    pub fn with<P: Into<ChartPoint>>(
         mut self,
         name: impl Into<String>,
         look: Look,
@@ -404,7 +404,7 @@ pub fn plotted(
     series: &[Series],
 ) -> Plot {
     let points = || series.iter().flat_map(|series| &series.points);
-    let ends = |point: &Point| point.ends.unwrap_or([point.y; 2]);
+    let ends = |point: &ChartPoint| point.ends.unwrap_or([point.y; 2]);
     // Bars begin at zero.
     let foot = series
         .iter()
@@ -431,7 +431,7 @@ pub fn plotted(
         canvas.line(&plot.level(0.0), INK, 1.2);
     }
     for (number, series_drawn) in series.iter().enumerate() {
-        let known = |point: &Point| x.holds(point.x) && point.y.is_finite();
+        let known = |point: &ChartPoint| x.holds(point.x) && point.y.is_finite();
         for run in series_drawn.points.split(|point| !known(point)) {
             // Later curves are thinner, so that an earlier one can be seen beneath.
             let later = (series.len() - 1 - number) as f64 / series.len() as f64;
@@ -449,7 +449,7 @@ pub fn plotted(
 }
 
 /// Draws an unbroken run of a series' points, with a line of this width (pixels).
-fn drawn(canvas: &mut Canvas, plot: &mut Plot, series: &Series, run: &[Point], width: f64) {
+fn drawn(canvas: &mut Canvas, plot: &mut Plot, series: &Series, run: &[ChartPoint], width: f64) {
     let colour = series_colour(series.colour);
     let dashes = series.dashes().map(|lengths| lengths.map(unit));
     let line: Vec<_> = run.iter().map(|one| plot.place(one.x, one.y)).collect();
@@ -510,7 +510,7 @@ fn discs(canvas: &mut Canvas, plot: &mut Plot, at: Vec<(f64, f64)>, colour: RGBC
 }
 
 /// The bands between the ends of points.
-fn bands(canvas: &mut Canvas, plot: &mut Plot, run: &[Point], colour: RGBColor) {
+fn bands(canvas: &mut Canvas, plot: &mut Plot, run: &[ChartPoint], colour: RGBColor) {
     for bounded in run.split(|point| point.ends.is_none()) {
         let end = |k: usize| {
             let ends = bounded

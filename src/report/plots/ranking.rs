@@ -9,7 +9,7 @@ use super::picture::PictureError;
 use super::style::{Anchor, BLUE, GREEN, GRID, LABEL, SMALL, SOFT, VERMILLION};
 use super::{Figure, Sheet};
 use crate::figures::Shown;
-use jobs::comparison::quantity::{Measure, Place, placed};
+use jobs::comparison::quantity::{Measure, Slot, placed};
 use jobs::comparison::{Assessment, Quantity};
 
 const WIDTH: f64 = 1120.0;
@@ -43,7 +43,7 @@ struct RankingPanel {
     shown: Shown,
     /// Largest number shown (SI).
     most: f64,
-    entries: Vec<(Place, &'static Quantity)>,
+    entries: Vec<(Slot, &'static Quantity)>,
     /// Ratios, whose numbers are written beside the bars.
     ratios: Vec<&'static Quantity>,
 }
@@ -93,7 +93,7 @@ pub fn draw(
     Figure::new(&composition, sheet, numbers)
 }
 
-fn colour(place: &Place) -> RGBColor {
+fn colour(place: &Slot) -> RGBColor {
     COLOURS[usize::from(place.column) % COLOURS.len()]
 }
 
@@ -103,8 +103,8 @@ fn middle(row: usize) -> f64 {
 }
 
 impl RankingPanel {
-    fn new(designs: &[Assessment], number: usize, all: &[(Place, &'static Quantity)]) -> Self {
-        let (ratios, entries): (Vec<_>, Vec<(Place, &'static Quantity)>) = all
+    fn new(designs: &[Assessment], number: usize, all: &[(Slot, &'static Quantity)]) -> Self {
+        let (ratios, entries): (Vec<_>, Vec<(Slot, &'static Quantity)>) = all
             .iter()
             .copied()
             .partition(|(_, one)| one.measure == Measure::Ratio);

@@ -4,7 +4,7 @@ use crate::csv::{number, table};
 use crate::figures::{Shown, cell};
 use crate::plots::axes::{Axis, Plot};
 use crate::plots::canvas::{Box4, Canvas, Spot, around, corners, middle};
-use crate::plots::chart::{Dimension, Look, Point as ChartPoint, Series, meanings, plotted};
+use crate::plots::chart::{ChartPoint, Dimension, Look, Series, meanings, plotted};
 use crate::plots::composition::{Composition, Panel, remark};
 use crate::plots::heat;
 use crate::plots::key::key;

@@ -2,7 +2,7 @@
 
 use super::searched::Searched;
 use crate::plots::Drawing;
-use crate::plots::chart::{Chart, Dimension, Look, Point};
+use crate::plots::chart::{Chart, ChartPoint, Dimension, Look};
 use jobs::comparison::Quantity;
 use jobs::comparison::quantity::Measure;
 use jobs::search::{Interval, Objective, Verdict};
@@ -56,7 +56,7 @@ fn course(searched: &Searched, number: usize, objective: &Objective) -> Chart {
     };
     let is_fit = |k: usize| searched.standings[k].gains().is_some();
     let is_proved = |k: usize| searched.found.tried[k].proved.is_some();
-    let point = |(k, it): (usize, Interval)| Point {
+    let point = |(k, it): (usize, Interval)| ChartPoint {
         x: (k + 1) as f64,
         y: it.value,
         ends: ends(&it),

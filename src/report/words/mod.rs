@@ -12,7 +12,7 @@ use super::document::{Document, Entries, Part, Table, rows};
 use super::files::{PAGE, REPORT};
 use super::page::Meetings;
 use super::page::meetings::{Carrier, Met};
-use super::plots::chart::{self, Chart, Dimension, Look};
+use super::plots::chart::{Chart, ChartPoint, Dimension, Look};
 use super::values::positive_zero;
 use jobs::output::Command;
 use jobs::word_sets::{Found, Sought, file};
@@ -280,7 +280,7 @@ fn frontier_chart(answer: &Answer) -> Chart {
         let points = points.filter(move |it| it.found.is_proved() == is_proved);
         points.map(move |it| {
             let [count, most] = [it.found.words.len(), it.found.upper.min(MOST)];
-            chart::Point {
+            ChartPoint {
                 x: it.asked,
                 y: count as f64,
                 ends: (!is_proved).then_some([count as f64, most as f64]),

@@ -3,7 +3,7 @@
 use jobs::word_sets::Sought;
 use physics::units::si;
 use physics::words::set::name;
-use physics::words::{Fault, Question, Rules, Shape, Word, WrongContact};
+use physics::words::{FaceShape, Fault, Question, Rules, Word, WrongContact};
 
 /// The headline: the number of words and its certainty, the weakest bond and the strongest wrong
 /// contact.
@@ -90,7 +90,7 @@ pub(super) fn meetings(rules: &Rules) -> String {
         (_, false) => "words meet only mates",
     };
     let slides = match rules.shape {
-        Shape::None => "at every slide by whole positions",
+        FaceShape::None => "at every slide by whole positions",
         _ => "held in place by their shape",
     };
     let flip = if rules.flip { ", also turned over" } else { "" };

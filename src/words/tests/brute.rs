@@ -2,7 +2,7 @@
 
 use super::super::constraint::Constraints;
 use super::super::search::largest;
-use super::super::{Fault, Rules, Shape, Task};
+use super::super::{FaceShape, Fault, Rules, Task};
 use super::definitions::{Poles, allowed, bond, energy, mate, poles, sound, wrong};
 use super::{all_words, effort, every_rule, task};
 
@@ -182,7 +182,7 @@ fn faults_are_tolerated() {
     }
     // A set valid with faults is valid without.
     let shared = Rules {
-        shape: Shape::Shared,
+        shape: FaceShape::Shared,
         ..Rules::default()
     };
     let count = |fault| {

@@ -88,12 +88,12 @@ fn every_rule() -> Vec<Rules> {
     let mut all = Vec::new();
     for flip in [false, true] {
         for (faces, shape) in [
-            (Faces::All, Shape::None),
-            (Faces::Mates, Shape::None),
-            (Faces::All, Shape::Shared),
-            (Faces::All, Shape::Polar),
-            (Faces::Own, Shape::None),
-            (Faces::Own, Shape::Shared),
+            (Faces::All, FaceShape::None),
+            (Faces::Mates, FaceShape::None),
+            (Faces::All, FaceShape::Shared),
+            (Faces::All, FaceShape::Polar),
+            (Faces::Own, FaceShape::None),
+            (Faces::Own, FaceShape::Shared),
         ] {
             all.push(Rules {
                 faces,
@@ -165,7 +165,7 @@ fn ties_of_contacts_are_decided_by_energies() {
 #[test]
 fn sets_with_a_polar_shape_are_codes() {
     let rules = Rules {
-        shape: Shape::Polar,
+        shape: FaceShape::Polar,
         ..Rules::default()
     };
     // A(n, d) of Brouwer's table: words of n places differ in at least d places if the gap is 2 d /
@@ -214,7 +214,7 @@ fn more_is_asked_fewer_are_found() {
     let plain = Rules::default();
     let (shared, flip) = (
         Rules {
-            shape: Shape::Shared,
+            shape: FaceShape::Shared,
             ..plain
         },
         Rules {

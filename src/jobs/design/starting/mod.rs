@@ -15,7 +15,7 @@ use physics::tile::barcode::Barcode;
 
 use code::code;
 pub use material::Material;
-pub use shape::Shape;
+pub use shape::ProfileShape;
 pub use shop::ShopMagnet;
 
 /// Common magnets on the market (m): along the axis, along the face, through the thickness.
@@ -71,7 +71,7 @@ pub struct Start {
     /// Magnets on each target face.
     pub magnets: usize,
     /// The line of the target faces.
-    pub shape: Shape,
+    pub shape: ProfileShape,
     /// The magnets; by default the best fitting ones on the market.
     pub magnet: Option<ShopMagnet>,
     /// Thickness of both tiles (m); by default in proportion to the side.
@@ -88,7 +88,7 @@ impl Default for Start {
             sides: 4,
             side: 0.43,
             magnets: 4,
-            shape: Shape::Tab,
+            shape: ProfileShape::Tab,
             magnet: None,
             thickness: None,
             material: Material::USUAL,
@@ -148,7 +148,7 @@ impl Start {
                     Ok(_) => {}
                     Err(fault) => last = Some(fault),
                 }
-                if self.shape == Shape::Flat {
+                if self.shape == ProfileShape::Flat {
                     break;
                 }
             }
@@ -226,7 +226,7 @@ impl Start {
             ..*self
         });
         let flat = Self {
-            shape: Shape::Flat,
+            shape: ProfileShape::Flat,
             ..*self
         };
         let advice = [

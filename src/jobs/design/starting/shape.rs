@@ -7,7 +7,7 @@ const WIDEST: f64 = 0.9;
 
 /// The profile of the target faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum ProfileShape {
     /// Straight.
     Flat,
     /// A trapezoid with leaning sides.
@@ -20,7 +20,7 @@ pub enum Shape {
     Triangle,
 }
 
-impl Shape {
+impl ProfileShape {
     /// The shapes by name.
     pub const NAMES: [(&str, Self); 5] = [
         ("flat", Self::Flat),

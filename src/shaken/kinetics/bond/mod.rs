@@ -71,7 +71,7 @@ pub struct Hold<'a> {
 
 /// The depth and the docking cost of a state at one kT, in kT.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Docking {
+pub struct Binding {
     /// Depth of the state over kT (Gse).
     pub depth: f64,
     /// The integral Z0 (m^2 rad) of `exp(-(U - Umin) / kT)` over the state's basin.
@@ -81,7 +81,7 @@ pub struct Docking {
     pub cost: f64,
 }
 
-impl Docking {
+impl Binding {
     /// ln K of `bonds` equal bonds closed by one docking: their total depth less the docking cost.
     pub fn ln_k(&self, bonds: f64) -> f64 {
         bonds * self.depth - self.cost
@@ -140,20 +140,20 @@ impl<'a> Hold<'a> {
     }
 
     /// Its strength at one kT, with the integral to the relative `tolerance`.
-    pub fn docking(&self, shaking: &Shaking, tolerance: f64) -> Docking {
+    pub fn docking(&self, shaking: &Shaking, tolerance: f64) -> Binding {
         let volume = self.well.volume(shaking.kt, tolerance);
         self.with(shaking, volume)
     }
 
     /// The same with only the part of its basin below `level` (J).
-    pub fn docking_below(&self, shaking: &Shaking, level: f64, tolerance: f64) -> Docking {
+    pub fn docking_below(&self, shaking: &Shaking, level: f64, tolerance: f64) -> Binding {
         let volume = self.well.volume_below(shaking.kt, level, tolerance);
         self.with(shaking, volume)
     }
 
     /// The same with the partition function in closed form, see [`corner`]; `None` if there is
     /// none.
-    pub fn closed_form(&self, problem: &Problem, shaking: &Shaking) -> Option<Docking> {
+    pub fn closed_form(&self, problem: &Problem, shaking: &Shaking) -> Option<Binding> {
         let value = corner::volume(problem, &self.configuration, shaking.kt)?;
         let error = f64::NAN;
         Some(self.with(shaking, Estimate { value, error }))
@@ -161,14 +161,14 @@ impl<'a> Hold<'a> {
 
     /// The association constant K (m^2) of one pair: alone on an area S, the pair is in one of the
     /// state's copies K / S times as often as free. `K = n Z0 exp(depth) / 2 pi` with all n copies.
-    pub fn association(&self, docking: &Docking) -> f64 {
+    pub fn association(&self, docking: &Binding) -> f64 {
         self.copies as f64 * docking.volume.value * libm::exp(docking.depth) / std::f64::consts::TAU
     }
 
-    fn with(&self, shaking: &Shaking, volume: Estimate) -> Docking {
+    fn with(&self, shaking: &Shaking, volume: Estimate) -> Binding {
         let density = shaking.coverage / self.area;
         let share = density * volume.value * self.moving_copies as f64 / std::f64::consts::TAU;
-        Docking {
+        Binding {
             depth: -self.energy / shaking.kt,
             volume,
             cost: -libm::log(share),
@@ -179,7 +179,7 @@ impl<'a> Hold<'a> {
     /// one alone does not: at the first, ln K of one bond is 0; at the second, ln K of two bonds
     /// with a single docking cost. `None` if there is no such kT for a bond of 2 to 120 kT.
     pub fn window(&self, coverage: f64) -> [Option<f64>; 2] {
-        let cost = |docking: &Docking, _: f64| docking.cost;
+        let cost = |docking: &Binding, _: f64| docking.cost;
         let known = RefCell::default();
         [1.0, 2.0].map(|bonds| self.threshold(coverage, bonds, &cost, &known))
     }
@@ -187,7 +187,7 @@ impl<'a> Hold<'a> {
     /// The kT (J) at which a pair with an area (m^2) for itself is bound `exp(log_odds)` times as
     /// long as it is free; `None` if there is no such kT for a bond of 2 to 120 kT.
     pub fn kt_of_odds(&self, log_odds: f64, area: f64) -> Option<f64> {
-        let cost = |docking: &Docking, depth: f64| {
+        let cost = |docking: &Binding, depth: f64| {
             depth + log_odds - libm::log(self.association(docking) / area)
         };
         self.threshold(1.0, 1.0, &cost, &RefCell::default())
@@ -199,7 +199,7 @@ impl<'a> Hold<'a> {
         &self,
         coverage: f64,
         bonds: f64,
-        cost: &dyn Fn(&Docking, f64) -> f64,
+        cost: &dyn Fn(&Binding, f64) -> f64,
         known: &RefCell<Vec<[f64; 2]>>,
     ) -> Option<f64> {
         let of = |log_depth: f64| {
