@@ -1,6 +1,7 @@
 //! Checks that the machine has the memory a request needs.
 
 use physics::roadmap;
+use physics::units::counted;
 
 /// The assumed free memory if the machine does not report it (bytes).
 const SUPPOSED: f64 = 8e9;
@@ -59,9 +60,9 @@ pub fn check_threads(threads: usize) -> Result<(), String> {
     let needed = reserved(threads);
     match limit() {
         Some(allowed) if allowed < needed => Err(format!(
-            "the program with {threads} thread{} needs {} of address space, but is limited to {}: \
+            "the program with {} needs {} of address space, but is limited to {}: \
              use fewer --threads or raise the limit (ulimit -v)",
-            if threads == 1 { "" } else { "s" },
+            counted(threads, "thread"),
             gigabytes(needed),
             gigabytes(allowed)
         )),

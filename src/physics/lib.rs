@@ -10,8 +10,8 @@
 pub use landscape::{self, roadmap};
 pub use shaken::{dynamics, kinetics, table};
 pub use tiles::{
-    Configuration, ConfigurationSpace, Problem, assessment, budget, cell, configuration, contact,
-    interruption, matrix, observer, order, parallel, potential, problem, scale, subdivision, tile,
-    units,
+    Configuration, ConfigurationSpace, Problem, assessment, bisection, budget, cell, configuration,
+    contact, interruption, matrix, observer, order, parallel, potential, problem, scale,
+    subdivision, tile, units,
 };
 pub use words;

@@ -21,7 +21,7 @@ use jobs::output::Command;
 use jobs::pipeline::Analysis;
 use physics::budget::Ended;
 use physics::landscape::{Alternative, Barrier, PathwayCost};
-use physics::units::{si, si_range};
+use physics::units::{counted, si, si_range};
 
 /// The files of the command.
 pub const FILES: Command = Command {
@@ -423,8 +423,8 @@ fn list(analysis: &Analysis) -> (&'static str, String) {
                 count => (
                     "proved in part",
                     format!(
-                        "{claim}, except in {count} {} with states no deeper than {lowest}{ended}",
-                        if count == 1 { "region" } else { "regions" }
+                        "{claim}, except in {} with states no deeper than {lowest}{ended}",
+                        counted(count, "region")
                     ),
                 ),
             }

@@ -13,7 +13,7 @@ use jobs::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, Thoroughness, capture_range, ranking};
 use jobs::output::Command;
 use physics::landscape::minimax::Ordering;
-use physics::units::share_to;
+use physics::units::{counted, share_to};
 
 /// The files of the command.
 pub const FILES: Command = Command {
@@ -96,10 +96,7 @@ impl Comparison {
     /// The headline: which design is best, and of how many.
     fn headline(&self) -> String {
         let docking = self.designs.iter().filter(|one| one.obstacle().is_none());
-        let of = match self.designs.len() {
-            1 => "1 design".to_owned(),
-            many => format!("{many} designs"),
-        };
+        let of = counted(self.designs.len(), "design");
         let of = match self.model() {
             Some(model) => format!("{of}, magnets as {model}"),
             None => of,

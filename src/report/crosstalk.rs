@@ -10,7 +10,7 @@ use jobs::design::WordSet;
 use jobs::output::Command;
 use physics::configuration::Configuration;
 use physics::order::Order;
-use physics::units::si;
+use physics::units::{counted, si};
 use physics::words::crosstalk::{ContactKind, Crosstalk, StrongestContact};
 use physics::words::set::name;
 
@@ -233,10 +233,7 @@ pub(super) fn face_name(set: &WordSet, found: &Crosstalk, face: usize) -> String
 /// The headline: the gap over all poses and its certainty, the weakest bond and the strongest wrong
 /// contact.
 pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
-    let many = match found.words.len() {
-        1 => "1 word".to_owned(),
-        m => format!("{m} words"),
-    };
+    let many = counted(found.words.len(), "word");
     let (Some((weakest, bond)), Some(gap)) = (found.weakest_bond(), found.gap()) else {
         return format!("{many}, of which one does not bind its mate");
     };

@@ -18,7 +18,7 @@ use physics::configuration::Configuration;
 use physics::landscape::results::SAME_ENERGY;
 use physics::landscape::{Barrier, Catalogue, Kind, LeftOut, Place, Proportion};
 use physics::order::Order;
-use physics::units::{share_with, si, si_range};
+use physics::units::{counted, share_with, si, si_range};
 
 /// Number of traps listed individually.
 const LISTED: usize = 4;
@@ -210,14 +210,9 @@ fn completeness(analysis: &Analysis) -> Vec<String> {
     notes.push(match known.open.first() {
         None => format!("complete, proved: {claim}"),
         Some(lowest) => format!(
-            "{claim}, proved except in {} {} ({:.1e} of the space)\nthat may hide states no \
+            "{claim}, proved except in {} ({:.1e} of the space)\nthat may hide states no \
              deeper than {}, the deepest at {}",
-            known.open.len(),
-            if known.open.len() == 1 {
-                "region"
-            } else {
-                "regions"
-            },
+            counted(known.open.len(), "region"),
             known.share,
             si(lowest.lowest, "J", 3),
             pose(&lowest.pose),

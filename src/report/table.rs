@@ -20,7 +20,7 @@ use physics::table::TableSettings;
 use physics::table::contacts::Tie;
 use physics::table::run::{ACCOUNTED, Run};
 use physics::table::{Mover, Sample};
-use physics::units::{duration, plain, share_to, si};
+use physics::units::{counted, duration, plain, share_to, si};
 
 /// The document of a table.
 pub fn document<'a>(
@@ -35,18 +35,13 @@ pub fn document<'a>(
     Document {
         title: format!("{tiles} tiles of {} on the table", about.name),
         answer: format!(
-            "{}: {tiles} tiles have {} bonds and {} traps after {} ({}; {} {} seed {seed})",
+            "{}: {tiles} tiles have {} bonds and {} traps after {} ({}; {}, seed {seed})",
             about.name,
             describe(&statistics.bonds),
             describe(&statistics.traps),
             duration(found.ensemble.settings.duration, 3),
             verdict(statistics),
-            found.runs.len(),
-            if found.runs.len() == 1 {
-                "run,"
-            } else {
-                "runs,"
-            },
+            counted(found.runs.len(), "run"),
         ),
         remarks: vec![meaning(about, found)],
         entries: entries(about, found, seed).and(compared(beside)),

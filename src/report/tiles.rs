@@ -6,7 +6,7 @@ use jobs::inspection::{Fit, Hold, Inspection, NEGLIGIBLE};
 use jobs::workshop::{CLEARANCE, open_pockets};
 use physics::order::Order;
 use physics::tile::{Magnet, Tile};
-use physics::units::{plain, share_to, si};
+use physics::units::{counted, plain, share_to, si};
 
 /// Weight of a gram (N).
 pub const GRAM: f64 = 9.806_65e-3;
@@ -37,10 +37,10 @@ pub fn without_wall(design: &Design) -> Option<String> {
         }
         None => "no `inset` leaves a wall for all of them".to_owned(),
     };
-    let pockets = if of == 1 { "pocket" } else { "pockets" };
+    let pockets = counted(of, "pocket");
     (count > 0).then(|| {
         format!(
-            "if the tiles are cut, {count} of {of} {pockets} would have a wall below 0.5 mm to the \
+            "if the tiles are cut, {count} of {pockets} would have a wall below 0.5 mm to the \
              rim, and `tilebind make` cuts them as notches: {help}"
         )
     })

@@ -2,16 +2,14 @@
 
 use super::document::{Document, Entries, Table, rows};
 use jobs::verification::{Subject, Verified};
+use physics::units::counted;
 
 /// Contradictions listed on a terminal.
 const LISTED: usize = 20;
 
 /// The document of checks.
 pub fn document(found: &Verified) -> Document<'_> {
-    let folders = match found.folders.len() {
-        1 => "1 folder".to_owned(),
-        count => format!("{count} folders"),
-    };
+    let folders = counted(found.folders.len(), "folder");
     let (confirmed, open) = (found.confirmed(), found.open());
     let contradicted = found.contradictions().count();
     let open = match open {

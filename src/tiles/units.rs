@@ -43,6 +43,11 @@ pub fn plain(value: f64, digits: usize) -> String {
     }
 }
 
+/// `1 magnet`, `3 magnets`: so many of something whose plural ends in s.
+pub fn counted(count: usize, one: &str) -> String {
+    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
+}
+
 /// `4.25 %`: a share with this many significant digits.
 pub fn share_to(share: f64, digits: usize) -> String {
     format!("{} %", plain(100.0 * share, digits))

@@ -24,6 +24,7 @@ use super::rests::{Faces, Rests};
 use super::wiring::{TilePair, Wiring};
 use super::{Glue, TileSet};
 use crate::design::WordSet;
+use physics::bisection::bisected;
 use physics::kinetics::bond::Shaking;
 use physics::kinetics::bond::corner;
 use physics::words::{Bar, Lags, Word};
@@ -321,18 +322,9 @@ impl Built {
         };
         let end = |strength: f64| {
             let ends = [self.unit / 400.0, self.unit * tau.max(1.0)];
-            let [mut low, mut high] = ends.map(libm::log);
-            if ln_k(strength, libm::exp(low)) < 0.0 {
-                return None;
-            }
-            for _ in 0..80 {
-                let middle = (low + high) / 2.0;
-                match ln_k(strength, libm::exp(middle)) > 0.0 {
-                    true => low = middle,
-                    false => high = middle,
-                }
-            }
-            Some(libm::exp(low))
+            let [low, high] = ends.map(libm::log);
+            let ln_k = |log: f64| ln_k(strength, libm::exp(log));
+            (ln_k(low) >= 0.0).then(|| libm::exp(bisected(low, high, 80, |log| ln_k(log) > 0.0)[0]))
         };
         let lower = if tau > less { end(tau - less)? } else { 0.0 };
         Some([lower, end(tau)?])

@@ -25,6 +25,7 @@ use super::TileSet;
 use super::growth::{Grown, Holds, STEPS};
 use physics::dynamics::docking::stream;
 use physics::interruption;
+use physics::kinetics::population::chosen;
 use physics::parallel;
 
 /// Tiles that stay for less than this share of a wait are ignored (as a logarithm).
@@ -337,12 +338,9 @@ impl<'a> Kinetics<'a> {
                 continue;
             }
             let kinds: Vec<(usize, f64)> = self.docking(self.beside(&state.tiles, cell)).collect();
-            let mut rest = rng.random::<f64>() * kinds.iter().map(|it| it.1).sum::<f64>();
-            let chosen = kinds.iter().find(|(_, rate)| {
-                rest -= rate;
-                rest < 0.0
-            });
-            if let Some((tile, _)) = chosen.or(kinds.last()) {
+            let rates = kinds.iter().map(|it| it.1);
+            let rest = rng.random::<f64>() * rates.clone().sum::<f64>();
+            if let Some((tile, _)) = kinds.get(chosen(rates, rest)) {
                 self.put(&mut state, cell, Some(*tile));
             }
         }

@@ -5,7 +5,7 @@ use super::{Request, Wiring};
 use crate::design::Design;
 use crate::word_sets::{self, file};
 use physics::observer::Observer;
-use physics::units::si;
+use physics::units::{counted, si};
 use physics::words::{Bar, FaceShape, Word};
 
 /// The result of a search.
@@ -87,10 +87,7 @@ impl Request {
 fn missing(choice: &Choice, shape: FaceShape) -> String {
     let classes = &choice.classes;
     let sum = |of: fn(&Class) -> usize| classes.iter().map(of).sum::<usize>();
-    let magnets = |class: &Class| match class.magnets {
-        1 => "1 magnet".to_owned(),
-        magnets => format!("{magnets} magnets"),
-    };
+    let magnets = |class: &Class| counted(class.magnets, "magnet");
     let needed = classes.iter();
     let needed = needed.map(|class| format!("{} with {}", class.needed, magnets(class)));
     let why = match classes.iter().find(|it| it.upper < it.needed) {

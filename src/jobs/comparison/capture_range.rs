@@ -21,6 +21,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
+use physics::bisection::bisected;
 use physics::configuration::Configuration;
 use physics::landscape::approach::Approach;
 use physics::landscape::minimum::{Known, Outcome, learn};
@@ -125,15 +126,7 @@ fn reach(mut holds: impl FnMut(f64) -> bool) -> f64 {
     let Some(miss) = first_miss else {
         return 1.0;
     };
-    let (mut inside, mut outside) = (at(f64::from(miss) - 1.0), at(miss.into()));
-    for _ in 0..HALVINGS {
-        let middle = (inside + outside) / 2.0;
-        if holds(middle) {
-            inside = middle;
-        } else {
-            outside = middle;
-        }
-    }
+    let [inside, _] = bisected(at(f64::from(miss) - 1.0), at(miss.into()), HALVINGS, holds);
     inside
 }
 

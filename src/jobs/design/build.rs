@@ -7,6 +7,7 @@ use super::placement::{magnet, placed};
 use super::profile::depth_of;
 use super::quantity::{four_digits, rounded_down};
 use super::tile::TileEntry;
+use physics::bisection::bisected;
 use physics::tile::assembly::{FaceLine, FitTooLarge, Ring, assemble, face_edges};
 use physics::tile::outline::{Outline, OutlineError};
 use physics::tile::profile::SHALLOWEST;
@@ -219,17 +220,10 @@ fn largest_depth(entry: &TileEntry, contents: &[FaceContent], face: usize) -> Op
             ring.is_ok_and(|ring| Outline::new(ring.points).is_ok())
         })
     };
-    let (mut right, mut wrong) = (0.0, depth.abs());
-    if !possible(right) {
+    if !possible(0.0) {
         return None;
     }
-    for _ in 0..24 {
-        let middle = (right + wrong) / 2.0;
-        match possible(middle) {
-            true => right = middle,
-            false => wrong = middle,
-        }
-    }
+    let [right, _] = bisected(0.0, depth.abs(), 24, &mut possible);
     let rounded = rounded_down(right);
     (right > SHALLOWEST * depth.abs() && possible(rounded)).then_some(rounded)
 }

@@ -2,6 +2,7 @@
 
 use super::blocks::{block, breaks_through, overlap, sticks_out};
 use super::build::BuiltTile;
+use physics::bisection::bisected;
 use physics::tile::Magnet;
 
 /// Number of insets tried between the surface and the far side of a tile.
@@ -20,15 +21,8 @@ pub(super) fn fix(built: &[BuiltTile; 2], inset: f64) -> Option<String> {
     let nearest = tried
         .filter(|&to| sound(to))
         .min_by(|a, b| (a - inset).abs().total_cmp(&(b - inset).abs()))?;
-    // Bisects between an invalid and a valid inset for the valid one closest to the invalid one.
-    let (mut wrong, mut right) = (inset, nearest);
-    for _ in 0..30 {
-        let middle = (wrong + right) / 2.0;
-        match sound(middle) {
-            true => right = middle,
-            false => wrong = middle,
-        }
-    }
+    // The valid one closest to the invalid one.
+    let [right, _] = bisected(nearest, inset, 30, sound);
     let raised = right > inset;
     let rounded = STEPS.into_iter().map(|step| match raised {
         // Not 0.00320001 for 0.0032.

@@ -10,6 +10,7 @@ use super::quantity::four_digits;
 use super::reader::{Entry, Section};
 use super::tile::{TILES, TileEntry};
 use super::tolerance::{Lengths, allowance, distinguished, micrometres, nearly_equal};
+use physics::bisection::bisected;
 use physics::configuration::Configuration;
 use physics::contact::Contact;
 use physics::tile::outline::cross;
@@ -111,7 +112,7 @@ pub(super) enum Bound {
 }
 
 /// Number of bisections of the distance by which tiles are drawn apart: to 1e-13 of the allowance.
-const HALVINGS: usize = 44;
+const HALVINGS: u32 = 44;
 
 impl Target<'_> {
     /// The configuration in which the two base lines coincide, face to face; the tiles are drawn
@@ -132,17 +133,11 @@ impl Target<'_> {
             let place = flush.position() + out * by;
             Configuration::new(clean(place.x), clean(place.y), flush.theta)
         };
-        if depth(&drawn(self.allowance)) > contact.touch() {
+        let overlaps = |by: f64| depth(&drawn(by)) > contact.touch();
+        if overlaps(self.allowance) {
             return Ok(Bound::Overlap(overlap));
         }
-        let (mut inside, mut outside) = (0.0, self.allowance);
-        for _ in 0..HALVINGS {
-            let middle = (inside + outside) / 2.0;
-            match depth(&drawn(middle)) > contact.touch() {
-                true => inside = middle,
-                false => outside = middle,
-            }
-        }
+        let [_, outside] = bisected(0.0, self.allowance, HALVINGS, overlaps);
         let doubt = self.overlapping(
             overlap,
             &format!(

@@ -5,16 +5,10 @@ use jobs::assembly::choice::{Choice, Verdict};
 use jobs::assembly::kinetic::Growth as Kinetic;
 use jobs::assembly::slides;
 use jobs::assembly::{Assembly, Growing, SIDES, Tau, TileSet, TileType, lattice};
-use physics::units::{plain, share_with, si, si_range};
+use physics::units::{counted, plain, share_with, si, si_range};
 
 /// Largest number of reasons given why nothing attaches to the seed.
 const MOST_REASONS: usize = 6;
-
-/// So many of something, in the plural unless it is one.
-fn counted(count: usize, one: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {one}{plural}")
-}
 
 /// One sentence that says whether the set can be built.
 pub(super) fn headline(assembly: &Assembly) -> String {

@@ -12,7 +12,7 @@ use crate::csv;
 use jobs::table::Found;
 use physics::table::contacts::Tie;
 use physics::table::{Mover, Sample};
-use physics::units::duration;
+use physics::units::{counted, duration};
 use plotters::style::RGBColor;
 
 /// Width (pixels) of a sheet of panels, and the least width of a panel.
@@ -87,10 +87,7 @@ fn drawn(
     let numbers = csv::table(["run", "tile", "kind", "x", "y", "theta"], rows);
     let least = LEAST[usize::from(sheet.width(WIDTH) < 2.0 * LEAST[0])];
     let panels = runs.iter().map(|(run, last)| {
-        let count = |tie: Tie, one: &str| {
-            let count = last.count(tie);
-            format!("{count} {one}{}", if count == 1 { "" } else { "s" })
-        };
+        let count = |tie: Tie, one: &str| counted(last.count(tie), one);
         let told = format!(
             "run {}: {}, {}",
             run.index,

@@ -1,7 +1,7 @@
 //! The summary of a search for words.
 
 use jobs::word_sets::Sought;
-use physics::units::si;
+use physics::units::{counted, si};
 use physics::words::set::name;
 use physics::words::{FaceShape, Fault, Question, Rules, Word, WrongContact};
 
@@ -54,12 +54,11 @@ pub(super) fn headline(sought: &Sought) -> String {
 }
 
 pub(super) fn how_many(count: usize, upper: usize) -> String {
-    let words = |count| if count == 1 { "word" } else { "words" };
     match (count, upper) {
         (0, 0) => "none exists, proved".to_owned(),
         (0, _) => format!("none found, at most {upper}"),
-        (count, upper) if count == upper => format!("{count} {}, proved maximal", words(count)),
-        (count, upper) => format!("at least {count} {}, at most {upper}", words(count)),
+        (count, upper) if count == upper => format!("{}, proved maximal", counted(count, "word")),
+        (count, upper) => format!("at least {}, at most {upper}", counted(count, "word")),
     }
 }
 

@@ -21,7 +21,7 @@ use jobs::output::Command;
 use jobs::workshop::{Filled, Made, MadeTile, Placed, Pocket, Sheet, Subject, grade};
 use physics::tile::Magnet;
 use physics::tile::magnet::Shape;
-use physics::units::change_with;
+use physics::units::{change_with, counted};
 use plan::Plan;
 
 /// The files of the command.
@@ -67,10 +67,7 @@ const LISTED: usize = 4;
 pub fn document<'a>(design: Option<&'a Design>, subject: &'a Subject, made: &Made) -> Document<'a> {
     let making = &made.making;
     let tiles: usize = made.tiles.iter().map(|tile| tile.copies).sum();
-    let count = match made.magnets.iter().map(|(_, count)| count).sum() {
-        1 => "1 magnet".to_owned(),
-        many => format!("{many} magnets"),
-    };
+    let count = counted(made.magnets.iter().map(|(_, count)| count).sum(), "magnet");
     let tiles = match &made.tiles[..] {
         [one] => format!("{} equal tiles", one.copies),
         [fixed, moving] if design.is_some() => match (fixed.copies, moving.copies) {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::demagnetising::working_point;
+use super::demagnetising::{complete_elliptic, working_point};
 use super::grade::Grade;
 use super::magnet::Shape;
 use crate::units::MU0;
@@ -123,9 +123,6 @@ pub fn pull(shape: Shape, size: [f64; 3], remanence: f64) -> f64 {
     remanence * remanence / (4.0 * PI * MU0) * faces
 }
 
-/// Number of means: after six all digits agree, except for discs that nearly touch.
-const MEANS: usize = 12;
-
 /// The integral of d / R^3 over both of two discs of a radius R (m) on one axis, d (m) apart (m^2):
 ///
 /// ```text
@@ -133,21 +130,13 @@ const MEANS: usize = 12;
 /// s^2 = 4 R^2 + d^2,   m = 4 R^2 / s^2
 /// ```
 ///
-/// K and E the complete elliptic integrals; `K - E = K sum 2^(n-1) c_n^2` by the means of a_0 = 1 and
-/// b_0 = sqrt(1 - m), arithmetic and geometric, `c_n^2 = a_n^2 - b_n^2`. Source: Vokoun, Beleggia, Heller and
+/// K and E the complete elliptic integrals. Source: Vokoun, Beleggia, Heller and
 /// Sittner, J. Magn. Magn. Mater. 321 (2009) 3758, for the integral over Bessel functions.
 fn coaxial(radius: f64, d: f64) -> f64 {
     let s = libm::hypot(2.0 * radius, d);
-    let (mut a, mut b, mut sum, mut power) = (1.0, d / s, 0.0, 0.5);
-    let mut c = 2.0 * radius / s;
-    for _ in 0..MEANS {
-        sum += power * c * c;
-        power *= 2.0;
-        c = (a - b) / 2.0;
-        (a, b) = ((a + b) / 2.0, (a * b).sqrt());
-    }
-    let difference = PI / (2.0 * a) * sum;
-    2.0 * PI * (PI * radius * radius - d * s * difference)
+    let c = 2.0 * radius / s;
+    let (k, less) = complete_elliptic(d / s, c * c);
+    2.0 * PI * (PI * radius * radius - d * s * (k * less))
 }
 
 /// The integral of d / R^3 over both of two rectangles a by b (m), d apart and square to each other

@@ -1,6 +1,7 @@
 //! Integrals over the gap alone, along one line of configurations.
 
 use super::frame::Frame;
+use tiles::bisection::bisected;
 use tiles::interruption;
 use tiles::problem::Problem;
 
@@ -22,7 +23,7 @@ const DEEPEST: u32 = 12;
 /// Beyond this exponent a weight counts as 0.
 const NOTHING: f64 = 60.0;
 /// Number of bisections for the end of the basin.
-const BISECTIONS: usize = 14;
+const BISECTIONS: u32 = 14;
 /// Parts with less than this share of a line are omitted.
 const LEAST: f64 = 1e-7;
 /// Shortest first panel, as a share of the longest line.
@@ -111,7 +112,9 @@ impl Lines<'_> {
             if was_inside && inside {
                 sum += whole.sum;
             } else if was_inside != inside && weight.at(weight.level) * length > LEAST * sum {
-                let edge = bisected(low, high, is_inside);
+                let is_as_before = |gap: f64| is_inside(gap) == was_inside;
+                let [last, next] = bisected(low, high, BISECTIONS, is_as_before);
+                let edge = (last + next) / 2.0;
                 let part = if inside { [edge, high] } else { [low, edge] };
                 sum += self.panel(at, part, weight, 0).sum;
             } else if was_inside || inside {
@@ -158,18 +161,4 @@ struct Panel {
     sum: f64,
     /// U at its end (J).
     end: f64,
-}
-
-/// The gap (m) between two gaps at which a line crosses the basin's end.
-fn bisected(mut low: f64, mut high: f64, is_inside: impl Fn(f64) -> bool) -> f64 {
-    let inside = is_inside(low);
-    for _ in 0..BISECTIONS {
-        let middle = (low + high) / 2.0;
-        if is_inside(middle) == inside {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    (low + high) / 2.0
 }

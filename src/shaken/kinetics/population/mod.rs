@@ -23,6 +23,7 @@
 //! - exact stochastic simulation (Gillespie 1977, doi:10.1021/j100540a008).
 
 pub mod chain;
+mod choice;
 mod crowd;
 pub mod mixture;
 pub mod numbers;
@@ -37,6 +38,7 @@ use rand_chacha::ChaCha8Rng;
 use self::numbers::Numbers;
 use tiles::interruption;
 
+pub use self::choice::chosen;
 pub use self::crowd::{Crowd, PairRates};
 
 /// Largest number of states of a crowd for which all probabilities are computed: ten tiles with ten
@@ -211,15 +213,7 @@ impl PairRates {
             if now.is_nan() || now >= time {
                 return Some(numbers);
             }
-            let mut rest = rng.random::<f64>() * all;
-            let mut chosen = rates.len() - 1;
-            for (k, rate) in rates.iter().enumerate() {
-                if rest < *rate {
-                    chosen = k;
-                    break;
-                }
-                rest -= rate;
-            }
+            let chosen = chosen(rates.iter().copied(), rng.random::<f64>() * all);
             match (chosen / n, chosen % n) {
                 (0, i) => numbers[i] += 1,
                 (1, i) => numbers[i] = numbers[i].saturating_sub(1),

@@ -8,6 +8,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::closing::Spreads;
 use super::joints::{Joints, Row};
+use crate::kinetics::population::choice::chosen;
 use crate::kinetics::population::crowd::PairRates;
 use tiles::interruption;
 
@@ -84,22 +85,6 @@ impl Table {
 struct Known {
     fit: BTreeMap<(Row, usize), bool>,
     closing: BTreeMap<Row, f64>,
-}
-
-/// A choice in proportion to weights.
-fn chosen(weights: impl IntoIterator<Item = f64>, mut rest: f64) -> usize {
-    let mut last = 0;
-    for (k, weight) in weights.into_iter().enumerate() {
-        if weight <= 0.0 {
-            continue;
-        }
-        last = k;
-        if rest < weight {
-            break;
-        }
-        rest -= weight;
-    }
-    last
 }
 
 /// The row read from its other end.
