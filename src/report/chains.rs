@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::document::{Entries, Table, rows};
+use crate::figures::within;
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::yields::{Chains, Count, Mean, Request, Yield};
 use physics::units::{duration, plain, share_to, si};
@@ -23,14 +24,7 @@ pub(crate) fn answer(name: &str, request: &Request, best: &Yield, built: &Chains
 /// What was built at the best kT.
 pub(crate) fn entries(built: &Chains) -> Entries {
     let [single, chains, rings] = built.shares;
-    let share = |part: &Mean| {
-        format!(
-            "{} ({} to {})",
-            percent(part.mean),
-            percent(part.low),
-            percent(part.high)
-        )
-    };
+    let share = |part: &Mean| within(part.mean, [part.low, part.high], percent);
     Entries::default()
         .data("bonds", built.bonds)
         .fact("", "bonds", number(&built.bonds))
@@ -161,12 +155,7 @@ fn course(built: &Chains) -> Table {
 
 /// `5.2 (4.9 to 5.4)`.
 fn number(mean: &Mean) -> String {
-    format!(
-        "{} ({} to {})",
-        plain(mean.mean, 3),
-        plain(mean.low, 3),
-        plain(mean.high, 3)
-    )
+    within(mean.mean, [mean.low, mean.high], |x| plain(x, 3))
 }
 
 /// A share, of which intervals may exceed one.

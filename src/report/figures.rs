@@ -114,6 +114,12 @@ impl Shown {
     }
 }
 
+/// `5.2 (4.9 to 5.4)`: a number with its interval.
+pub fn within(value: f64, ends: [f64; 2], describe: impl Fn(f64) -> String) -> String {
+    let [low, high] = ends.map(&describe);
+    format!("{} ({low} to {high})", describe(value))
+}
+
 /// `42 %`; two decimals below one percent.
 pub fn share(value: f64) -> String {
     let percent = 100.0 * value;

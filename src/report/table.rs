@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use crate::assembly::grown_with_errors;
 use crate::chains;
 use crate::document::{Document, Drawing, Entries, Part, Table, rows};
+use crate::figures::within;
 use crate::gsd::{self, Particle};
 use crate::page::Crowd;
 use crate::plots::chart::{Chart, ChartPoint, Dimension, Look};
@@ -81,12 +82,7 @@ fn verdict(statistics: &Statistics) -> &'static str {
 
 fn describe(interval: &Interval) -> String {
     match (interval.low, interval.high) {
-        (Some(low), Some(high)) => format!(
-            "{} ({} to {})",
-            plain(interval.mean, 3),
-            plain(low, 3),
-            plain(high, 3)
-        ),
+        (Some(low), Some(high)) => within(interval.mean, [low, high], |x| plain(x, 3)),
         _ => plain(interval.mean, 3),
     }
 }
@@ -265,12 +261,7 @@ fn against_yield(found: &Found, question: &yields::Request, yields: &Yields) -> 
         share_to(best.bound, 2),
         in_pairs(question, best.interval),
         match (here.low, here.high) {
-            (Some(low), Some(high)) => format!(
-                "{} ({} to {})",
-                share_to(here.mean, 2),
-                share_to(low, 2),
-                share_to(high, 2)
-            ),
+            (Some(low), Some(high)) => within(here.mean, [low, high], |x| share_to(x, 2)),
             _ => share_to(here.mean, 2),
         }
     )

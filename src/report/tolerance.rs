@@ -206,7 +206,7 @@ fn draws(found: &Tolerance) -> Table {
         .data("draw", |(k, _)| *k) // number of the draw
         .data("bond_J", |(_, it)| it.bond) // energy of the bond
         .data("trap_J", |(_, it)| it.trap) // energy of the deepest trap
-        .data("selectivity", |(_, it)| Some(it.selectivity()).filter(|it| it.is_finite())) // the bond's depth over the trap's
+        .data("selectivity", |(_, it)| it.selectivity()) // the bond's depth over the trap's
         .data("flipped", |(_, it)| it.is_flipped) // whether a magnet is flipped
         .data("works", move |(_, it)| it.works(least)) // whether the pair works
         .table("draws").in_csv("draws")

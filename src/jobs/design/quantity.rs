@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::units::{self, Units};
+use physics::units::to_digits;
 
 /// A kind of quantity, with its range for tiles and magnets.
 #[derive(Clone, Copy, Debug)]
@@ -317,7 +318,7 @@ pub(super) fn rounded_down(limit: f64) -> f64 {
 
 /// A number to four significant digits, without trailing zeros.
 pub(super) fn four_digits(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
+    to_digits(value, 4)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::design::{angle, length};
+use physics::units::to_digits;
 
 /// Largest number of points of a range.
 const MOST_VALUES: usize = 100_000;
@@ -193,8 +194,7 @@ fn end(text: &str) -> Result<f64, String> {
 
 /// A number to twelve significant digits: 0.03, not 0.030000000000000002. Never -0.
 pub(crate) fn rounded(value: f64) -> f64 {
-    let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
-    rounded + 0.0
+    to_digits(value, 12) + 0.0
 }
 
 fn value(word: &str) -> Result<Value, String> {

@@ -1,16 +1,13 @@
 //! The numbers of a page, as short as it needs them.
 
 use crate::values::positive_zero;
+use physics::units::to_digits;
 
 /// A number with `digits` significant digits, 0 if it is not finite.
 pub fn rounded(value: f64, digits: usize) -> f64 {
-    let text = format!("{value:.*e}", digits - 1);
-    let rounded = text.parse().unwrap_or(value);
-    if f64::is_finite(rounded) {
-        positive_zero(rounded)
-    } else {
-        0.0
-    }
+    Some(positive_zero(to_digits(value, digits)))
+        .filter(|it| it.is_finite())
+        .unwrap_or(0.0)
 }
 
 /// A length (m) or an angle to 8 decimals: ten nanometres, a hundred-thousandth of a tile of 1 mm.

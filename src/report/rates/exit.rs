@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::told::{SCOPE, digits, finite};
+use super::told::{SCOPE, digits};
 use crate::document::{Document, Entries, Entry, Table, entries, rows};
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;
@@ -56,7 +56,7 @@ fn found_entries(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> 
     entries(design)
         .fact("diffusion_m2_s", "", exit.diffusion)
         .fact("mean_exit_s", "mean exit time", exit.mean()).digits(known_digits(exit)).noted(describe_error(exit))
-        .fact("mean_exit_error", "", finite(exit.error()))
+        .fact("mean_exit_error", "", exit.error())
         // Nothing is proved about an exit: the key stays for those who read it.
         .data("mean_exit_bounds_s", Value::Null)
         .group("exits", Entries::default()
@@ -158,13 +158,13 @@ fn check_entry(exit: &PoseExit, runs: &ExitRuns) -> Value {
     json!({
         "runs": {"bound": bound, "free": free, "given_up": runs.given_up},
         // If some were abandoned, the true mean is longer.
-        "mean_exit_s": finite(time),
-        "standard_error_s": finite(error),
-        "ratio": finite(time / exit.mean()),
-        "ratio_error": finite(error / exit.mean()),
-        "bound": finite(bound as f64 / (bound + free) as f64),
-        "kinetic_over_kt": finite(warmth),
-        "kinetic_over_kt_error": finite(of_warmth),
+        "mean_exit_s": time,
+        "standard_error_s": error,
+        "ratio": time / exit.mean(),
+        "ratio_error": error / exit.mean(),
+        "bound": bound as f64 / (bound + free) as f64,
+        "kinetic_over_kt": warmth,
+        "kinetic_over_kt_error": of_warmth,
         "has_temperature": runs.has_temperature(),
     })
 }

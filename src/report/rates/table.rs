@@ -176,7 +176,7 @@ fn pairs(found: &StateRates) -> Table {
         .column("value_per_s", "rate", "", |(i, j)| found.known_rate(*i, *j))
             .viewed(|(i, j)| found.known_rate(*i, *j).map_or("-".to_owned(), |rate| per_second(rate, digits_of(found, *i, *j))))
         .column("error", "error", "of the rate, estimated from two meshes", error).viewed(move |row| error(row).map_or("-".to_owned(), either_way))
-        .data("spread", |(i, j)| finite(found.found.spread(*i, *j))) // difference between the two finest meshes
+        .data("spread", |(i, j)| found.found.spread(*i, *j)) // difference between the two finest meshes
         .column("first", "probability as next", "that it is the next state", |(i, j)| found.first(*i, *j)).share()
         .column("mean_first_passage_s", "mean first passage", "mean time from one to the other, \
             by any path", passage)

@@ -17,6 +17,7 @@ use jobs::comparison::{Assessment, Quantity};
 use jobs::sweep::Point;
 use ordered_float::OrderedFloat;
 use physics::order::Order;
+use physics::units::to_digits;
 
 /// Largest number of pictures of a sweep, and of series in one picture.
 const MOST_PICTURES: usize = 24;
@@ -411,6 +412,5 @@ fn dimension(measure: Measure) -> Dimension {
 
 /// A number to three significant digits.
 fn three_digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    minus(&format!("{}", rounded + 0.0))
+    minus(&format!("{}", to_digits(value, 3) + 0.0))
 }

@@ -236,7 +236,7 @@ impl Searched<'_> {
             .map(|quantity| {
                 let bounds = match self.figure(quantity, index) {
                     Ok(it) => json!({
-                        "value": finite(it.value), "lower": finite(it.low), "upper": finite(it.high),
+                        "value": it.value, "lower": it.low, "upper": it.high,
                     }),
                     Err(_) => Json::Null,
                 };
@@ -415,10 +415,6 @@ impl Searched<'_> {
                 "change of the objective by a step of both, with each other or against",
             )
     }
-}
-
-fn finite(value: f64) -> Option<f64> {
-    Some(value).filter(|value| value.is_finite())
 }
 
 /// A figure with its bounds, for people.
