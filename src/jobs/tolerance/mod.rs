@@ -77,11 +77,7 @@ pub enum ToleranceError {
     Memory(String),
 }
 
-impl Unanswered for ToleranceError {
-    fn is_of_the_question(&self) -> bool {
-        true
-    }
-}
+impl Unanswered for ToleranceError {}
 
 /// A drawn pair of tiles. Energies in J.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,8 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
-use physics::tile::Outline;
-use physics::tile::outline::cross;
+use physics::tile::outline::{self, Outline, cross};
 
 /// Tangents that differ by less than this (rad) form no corner: the intersection of nearly parallel
 /// curves would be far away. Ignoring such a corner causes an error of this share of the cut.
@@ -93,16 +92,11 @@ pub fn length(corners: &[Corner]) -> f64 {
 /// The smallest and the largest x and y (m) of a closed line.
 pub fn extent(corners: &[Corner]) -> [[f64; 2]; 2] {
     let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
-    let points: Vec<Vector2<f64>> = pairs
-        .flat_map(|(corner, next)| {
-            let turns = corner.turning_points(next);
-            turns.into_iter().chain([corner.point])
-        })
-        .collect();
-    let of = |fold: fn(f64, f64) -> f64, start: f64| {
-        [0, 1].map(|k| points.iter().map(|p| p[k]).fold(start, fold))
-    };
-    [of(f64::min, f64::INFINITY), of(f64::max, f64::NEG_INFINITY)]
+    let points = pairs.flat_map(|(corner, next)| {
+        let turns = corner.turning_points(next);
+        turns.into_iter().chain([corner.point])
+    });
+    outline::extent(points).map(Into::into)
 }
 
 /// A circle that runs counter-clockwise or clockwise.

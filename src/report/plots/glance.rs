@@ -14,7 +14,7 @@ use jobs::design::Design;
 use jobs::inspection::Inspection;
 use jobs::workshop::{Kind, Subject};
 use physics::configuration::Configuration;
-use physics::tile::{Magnet, Tile};
+use physics::tile::{Magnet, Tile, outline};
 
 const SIZE: [f64; 2] = [1000.0, 640.0];
 /// Space for the title above and the figures below the tiles (pixels).
@@ -114,14 +114,7 @@ pub fn kinds(subject: &Subject, sheet: &Sheet) -> Result<Figure, PictureError> {
 
 /// The corners of the smallest rectangle that contains a tile (m).
 fn spread(tile: &Tile) -> [Vector2<f64>; 2] {
-    let corners = tile.outline.vertices().iter();
-    corners.fold(
-        [
-            Vector2::repeat(f64::INFINITY),
-            Vector2::repeat(f64::NEG_INFINITY),
-        ],
-        |[low, high], p| [low.inf(p), high.sup(p)],
-    )
+    outline::extent(tile.outline.vertices().iter().copied())
 }
 
 /// The tiles with the figures below them.

@@ -9,7 +9,7 @@ use super::style::{Anchor, BLUE, FIXED_FILL, INK, MOVING_FILL, Text, VERMILLION,
 use physics::configuration::Configuration;
 use physics::landscape::StateKind;
 use physics::tile::magnet::Standing;
-use physics::tile::{Magnet, Pair, Tile};
+use physics::tile::{Magnet, Pair, Tile, outline};
 
 /// The pose of the fixed tile.
 pub const ORIGIN: Configuration = Configuration::new(0.0, 0.0, 0.0);
@@ -70,12 +70,10 @@ pub fn extent<'a>(
 ) -> [Vector2<f64>; 2] {
     let moving = poses.into_iter().map(|q| (&pair.moving, *q));
     let placed = [(&pair.fixed, ORIGIN)].into_iter().chain(moving);
-    let corners = placed.flat_map(|(tile, q)| {
+    outline::extent(placed.flat_map(|(tile, q)| {
         let corners = tile.outline.vertices().iter();
         corners.map(move |corner| q.transform(*corner))
-    });
-    let none = Vector2::repeat(f64::INFINITY);
-    corners.fold([none, -none], |[low, high], p| [low.inf(&p), high.sup(&p)])
+    }))
 }
 
 impl View {

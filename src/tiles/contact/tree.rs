@@ -5,6 +5,7 @@ use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
 use crate::order::Order;
+use crate::tile::plane::extent;
 
 /// Pieces in a leaf, at most.
 const LEAF: usize = 4;
@@ -69,9 +70,7 @@ impl CircleTree {
 
     fn build(&mut self, circles: &[Circle], first: usize, end: usize) {
         let pieces = &mut self.order[first..end];
-        let centres = || pieces.iter().map(|&k| circles[k].0);
-        let low = centres().fold(Vector2::repeat(f64::INFINITY), |a, b| a.inf(&b));
-        let high = centres().fold(Vector2::repeat(f64::NEG_INFINITY), |a, b| a.sup(&b));
+        let [low, high] = extent(pieces.iter().map(|&k| circles[k].0));
         let centre = (low + high) / 2.0;
         let radius = pieces
             .iter()

@@ -2,6 +2,8 @@
 
 use nalgebra::Vector2;
 
+use super::plane::extent;
+
 /// Outlines with fewer edges are searched one by one.
 const WORTHWHILE: usize = 16;
 /// Cells along the longer side of the outline's bounding box.
@@ -24,8 +26,7 @@ pub struct EdgeGrid {
 impl EdgeGrid {
     /// The grid of a closed polygon.
     pub fn new(vertices: &[Vector2<f64>]) -> Self {
-        let low = vertices.iter().fold(vertices[0], |a, b| a.inf(b));
-        let high = vertices.iter().fold(vertices[0], |a, b| a.sup(b));
+        let [low, high] = extent(vertices.iter().copied());
         let size = high - low;
         let cell = size.max() / CELLS;
         let columns = (size.x / cell) as usize + 1;

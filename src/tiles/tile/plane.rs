@@ -16,6 +16,13 @@ pub fn contains(polygon: &[Vector2<f64>], p: &Vector2<f64>) -> bool {
     inside
 }
 
+/// The lower left and the upper right corner of the smallest rectangle around points; infinite for none.
+pub fn extent(points: impl IntoIterator<Item = Vector2<f64>>) -> [Vector2<f64>; 2] {
+    let none = Vector2::repeat(f64::INFINITY);
+    let points = points.into_iter();
+    points.fold([none, -none], |[low, high], p| [low.inf(&p), high.sup(&p)])
+}
+
 /// z component of the cross product of two plane vectors.
 #[inline]
 pub fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {

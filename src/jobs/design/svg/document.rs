@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::str::FromStr;
 
 use kurbo::{Affine, PathSeg, Point};
+use nalgebra::Vector2;
 use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::Transform;
 
@@ -13,6 +14,7 @@ use super::super::source::Source;
 use super::path::{self, Fault, SHAPES, Viewport, draw};
 use super::pen::{Pen, Stroke, is_arc, points};
 use super::scale::{fitted, scale, span, view_box};
+use physics::tile::outline::extent;
 use physics::tile::profile::CHORD_SHARE;
 
 const NAMESPACE: &str = "http://www.w3.org/2000/svg";
@@ -644,17 +646,11 @@ fn lines(strokes: &[Stroke], chord_error: f64, most: usize) -> Option<Vec<Line>>
 
 /// The longer and the shorter side (m) of the box around the control points of some segments.
 fn sides<'a>(segments: impl IntoIterator<Item = &'a PathSeg>) -> [f64; 2] {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for cubic in segments.into_iter().map(PathSeg::to_cubic) {
-        for point in [cubic.p0, cubic.p1, cubic.p2, cubic.p3] {
-            for (k, x) in [point.x, point.y].into_iter().enumerate() {
-                low[k] = f64::min(low[k], x);
-                high[k] = f64::max(high[k], x);
-            }
-        }
-    }
-    let sides = [0, 1].map(|k| (high[k] - low[k]).max(0.0));
-    [sides[0].max(sides[1]), sides[0].min(sides[1])]
+    let cubics = segments.into_iter().map(PathSeg::to_cubic);
+    let points = cubics.flat_map(|it| [it.p0, it.p1, it.p2, it.p3]);
+    let [low, high] = extent(points.map(|p| Vector2::new(p.x, p.y)));
+    let [width, height] = <[f64; 2]>::from(high - low).map(|side| side.max(0.0));
+    [width.max(height), width.min(height)]
 }
 
 /// Whether an element belongs to SVG; a drawing without any namespace counts as SVG.

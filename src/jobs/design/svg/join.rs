@@ -8,6 +8,8 @@ use super::super::source::Source;
 use super::SAME_POINT;
 use super::document::{DrawnShape, Line, Segment};
 use super::line::apart;
+use nalgebra::Vector2;
+use physics::tile::outline;
 
 /// Widest gap that is closed (m): half the kerf of laser cutters.
 const WIDEST_GAP: f64 = 1e-4;
@@ -84,14 +86,8 @@ pub(super) fn extent(points: impl Iterator<Item = [f64; 2]>) -> f64 {
 
 /// The width and the height of some points.
 pub(super) fn size(points: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
-    let none = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    let [low, high] = points.fold(none, |[low, high], p| {
-        [
-            [low[0].min(p[0]), low[1].min(p[1])],
-            [high[0].max(p[0]), high[1].max(p[1])],
-        ]
-    });
-    [high[0] - low[0], high[1] - low[1]].map(|x| x.max(0.0))
+    let [low, high] = outline::extent(points.map(Vector2::from));
+    <[f64; 2]>::from(high - low).map(|x| x.max(0.0))
 }
 
 /// A line without its closing piece, if that is only a gap.

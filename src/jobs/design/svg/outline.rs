@@ -8,7 +8,7 @@ use super::super::quantity;
 use super::super::reader::Entry;
 use super::super::source::Source;
 use super::document::DrawnShape;
-use super::join::extent;
+use super::join::{extent, size};
 use super::line::apart;
 use super::simplify::{MANY, simplified};
 use super::{SAME_POINT, only_line, with_shape};
@@ -174,14 +174,13 @@ fn sound(source: &Source, shape: &DrawnShape, ring: Vec<Vector2<f64>>) -> Result
 }
 
 fn check_size(ring: &[Vector2<f64>]) -> std::result::Result<(), String> {
-    for (k, what) in ["the outline's width", "the outline's height"]
-        .into_iter()
-        .enumerate()
-    {
-        let low = ring.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
-        let high = ring.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
-        // A drawing can shrink to a point, and nothing is left of it.
-        let check = quantity::TILE_SIDE.check(what, (high - low).max(0.0));
+    // A drawing can shrink to a point, and nothing is left of it.
+    let [width, height] = size(ring.iter().map(|p| [p.x, p.y]));
+    for (what, size) in [
+        ("the outline's width", width),
+        ("the outline's height", height),
+    ] {
+        let check = quantity::TILE_SIDE.check(what, size);
         check.map_err(|(message, _)| message)?;
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use nalgebra::{Rotation2, Vector2};
 
-use super::{outward_normal, signed_area};
+use super::{extent, outward_normal, signed_area};
 use crate::tile::convex;
 
 /// Rounding of the distance (m) of a disc beyond an edge.
@@ -90,17 +90,8 @@ pub struct Bounds {
 
 impl Bounds {
     fn around(points: impl Iterator<Item = Vector2<f64>>) -> Self {
-        let (low, high) = (f64::NEG_INFINITY, f64::INFINITY);
-        points.fold(
-            Self {
-                low: Vector2::repeat(high),
-                high: Vector2::repeat(low),
-            },
-            |bounds, p| Self {
-                low: bounds.low.inf(&p),
-                high: bounds.high.sup(&p),
-            },
-        )
+        let [low, high] = extent(points);
+        Self { low, high }
     }
 
     /// Whether the boxes share no inner point.

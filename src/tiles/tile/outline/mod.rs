@@ -12,7 +12,7 @@ pub use validity::OutlineError;
 
 use super::edge_grid::EdgeGrid;
 use super::plane::outward_normal;
-pub use super::plane::{centroid, contains, cross, distance_to_segment, signed_area};
+pub use super::plane::{centroid, contains, cross, distance_to_segment, extent, signed_area};
 use crate::configuration::Configuration;
 
 /// A simple closed polygon, counter-clockwise, in the tile's frame (m).
