@@ -11,7 +11,8 @@
 //!   corner may pass. A corner that lies beside an edge of the other meets this edge; if each is
 //!   closest to the other, they meet along the line between them. Gaps are distances, so they and
 //!   the normals are continuous where a corner slides past the end of an edge. A corner inside the
-//!   other tile meets the edge that separates the two corners most (separating axis theorem).
+//!   other tile, or edges that cross, meet the edge that separates the two corners most (separating axis
+//!   theorem).
 
 use nalgebra::{Rotation2, Vector2};
 use ordered_float::OrderedFloat;
@@ -158,22 +159,31 @@ impl Contact {
         let fixed = Wedge::new(&self.fixed, k, &(Rotation2::identity(), Vector2::zeros()));
         let moving = Wedge::new(&self.moving, i, &(rotation, position));
         let away = moving.corner - fixed.corner;
-        let on_fixed = fixed
-            .meets(&moving, margin)
-            .map(|(normal, gap)| ContactPoint {
-                on_moving: moving.corner,
-                normal,
-                gap,
-                turns_with: TurnsWith::Behind,
-            });
-        let on_moving = moving
-            .meets(&fixed, margin)
-            .map(|(normal, gap)| ContactPoint {
-                on_moving: fixed.corner - normal * gap,
-                normal: -normal,
-                gap,
-                turns_with: TurnsWith::InFront,
-            });
+        let before_fixed = |(normal, gap): (Vector2<f64>, f64)| ContactPoint {
+            on_moving: moving.corner,
+            normal,
+            gap,
+            turns_with: TurnsWith::Behind,
+        };
+        let before_moving = |(normal, gap): (Vector2<f64>, f64)| ContactPoint {
+            on_moving: fixed.corner - normal * gap,
+            normal: -normal,
+            gap,
+            turns_with: TurnsWith::InFront,
+        };
+        if !fixed.has_inside(&away) && !moving.has_inside(&-away) {
+            // Their edges may cross although neither corner is inside the other.
+            let [one, other] = [fixed.most(&moving, margin), moving.most(&fixed, margin)];
+            if one.0 < 0.0 && other.0 < 0.0 {
+                found.push(match one.0 > other.0 {
+                    true => before_fixed(one.1),
+                    false => before_moving(other.1),
+                });
+                return;
+            }
+        }
+        let on_fixed = fixed.meets(&moving, margin).map(before_fixed);
+        let on_moving = moving.meets(&fixed, margin).map(before_moving);
         match (on_fixed, on_moving) {
             // Only one of the two stops the corners: the nearer one, or the way out of an overlap.
             (Some(one), Some(other)) if one.normal.dot(&other.normal) < ALIKE => {
@@ -240,26 +250,46 @@ impl Wedge {
         self.sides.iter().all(|it| it.along.dot(toward) < 0.0)
     }
 
+    /// Whether a place, relative to the corner, is behind both edges.
+    fn has_inside(&self, from: &Vector2<f64>) -> bool {
+        self.sides.iter().all(|it| it.normal.dot(from) < 0.0)
+    }
+
+    /// How far (m) another wedge, cut off at twice a margin (m), is in front of an edge; negative if a part of it
+    /// is behind.
+    fn separation(&self, side: &Side, other: &Self, margin: f64) -> f64 {
+        let deepest = |end: &Side| {
+            let reach = end.length.min(2.0 * margin);
+            (side.normal.dot(&end.along) * reach).min(0.0)
+        };
+        let corner = side.normal.dot(&(other.corner - self.corner));
+        corner + other.sides.iter().map(deepest).fold(0.0, f64::min)
+    }
+
+    /// The largest separation (m) by one of the edges; its normal, and how far (m) the corner of the other wedge is
+    /// in front of it.
+    fn most(&self, other: &Self, margin: f64) -> (f64, (Vector2<f64>, f64)) {
+        let of = |side: &Side| {
+            let gap = side.normal.dot(&(other.corner - self.corner));
+            (self.separation(side, other, margin), (side.normal, gap))
+        };
+        let [one, two] = [0, 1].map(|k| of(&self.sides[k]));
+        if one.0 > two.0 { one } else { two }
+    }
+
     /// The outward normal of the edge that the corner of another wedge meets, and how far (m) it is in front of
     /// this edge; none if it is nearest to the corner, or beyond the end of an edge. Inside the wedge it is the
-    /// edge whose normal separates the wedges most, cut off at twice a margin (m).
+    /// edge that separates the wedges most, cut off at twice a margin (m).
     fn meets(&self, other: &Self, margin: f64) -> Option<(Vector2<f64>, f64)> {
         let from = other.corner - self.corner;
         let in_front = |side: &Side| side.normal.dot(&from);
-        let is_inside = self.sides.iter().all(|it| in_front(it) < 0.0);
+        let is_inside = self.has_inside(&from);
         let meets = |side: &&Side| {
             let t = side.along.dot(&from);
             is_inside || (in_front(side) >= 0.0 && t >= 0.0 && t <= side.length)
         };
-        let separation = |side: &Side| {
-            let deepest = |end: &Side| {
-                let reach = end.length.min(2.0 * margin);
-                (side.normal.dot(&end.along) * reach).min(0.0)
-            };
-            in_front(side) + other.sides.iter().map(deepest).fold(0.0, f64::min)
-        };
         let met = self.sides.iter().filter(meets);
-        met.max_by_key(|side| OrderedFloat(separation(side)))
+        met.max_by_key(|side| OrderedFloat(self.separation(side, other, margin)))
             .map(|side| (side.normal, in_front(side)))
     }
 }

@@ -250,6 +250,33 @@ fn the_least_gap_at_corners_is_the_distance() {
     }
 }
 
+/// Tiles that overlap at their corners have a point that says so, also where edges cross and no corner is inside
+/// the other tile.
+#[test]
+fn overlaps_at_corners_are_seen() {
+    let margin = 5e-4;
+    let mut rng = ChaCha8Rng::seed_from_u64(14);
+    for vertices in CONVEX {
+        let (contact, _) = convex(vertices);
+        let mut overlaps = 0;
+        for _ in 0..6000 {
+            let size = 10f64.powf(rng.random_range(-6.0..-3.3));
+            let q = corner_at_corner(&contact, size, &mut rng);
+            let clearance = contact.clearance(&q);
+            if !(-0.1 * margin..-1e-8).contains(&clearance) {
+                continue;
+            }
+            overlaps += 1;
+            let least = nearest(&contact, &q, margin);
+            assert!(
+                least.is_some_and(|it| it.gap < 0.0),
+                "{q:?} {clearance} {least:?}"
+            );
+        }
+        assert!(overlaps > 500, "{overlaps}");
+    }
+}
+
 /// The distance of two convex tiles has one gradient everywhere, whose direction turns by no more than the
 /// tile moves over the distance: also past corners.
 #[test]
