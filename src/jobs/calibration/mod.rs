@@ -57,9 +57,9 @@ pub struct PairsRequest {
 /// The options of a fit to forces and energies.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct ForcesRequest {
-    /// Hold out one in N rows from the fit
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = request::whole(2, u16::MAX))]
-    pub hold_out: u16,
+    /// Hold out one in N rows from the fit of shields [default: 5]
+    #[arg(long, value_name = "N", value_parser = request::whole(2, u16::MAX))]
+    pub hold_out: Option<u16>,
 }
 
 /// The result of a calibration.
@@ -123,13 +123,18 @@ impl ForcesRequest {
     pub fn of_forces(&self, design: &Design, table: &str) -> Result<Fitted, FitError> {
         let rows = read_rows(table)?;
         if !rows.iter().any(|row| row.iron) {
+            if self.hold_out.is_some() {
+                let told = "--hold-out: no row has iron, and no row is held out of the fit of the magnets' \
+                    strength: leave it out";
+                return Err(told.to_owned().into());
+            }
             check_poses([&design.pair.fixed, &design.pair.moving], &rows)?;
             return Ok(Fitted::Strength(Box::new(strength::fit_rows(
                 design, &rows,
             )?)));
         }
         check_magnets(design)?;
-        let (specimen, settings) = Specimen::of(design, self.hold_out.into());
+        let (specimen, settings) = Specimen::of(design, self.hold_out);
         let found = calibrate(&specimen, &rows, &settings)?;
         Ok(Fitted::Shields(Box::new(found)))
     }
@@ -211,12 +216,12 @@ pub struct Specimen<'a> {
 
 impl<'a> Specimen<'a> {
     /// The tiles of a design, and the settings of a fit that starts with the design's own shield.
-    pub fn of(design: &'a Design, hold_out_every: usize) -> (Self, CalibrationSettings) {
+    pub fn of(design: &'a Design, hold_out_every: Option<u16>) -> (Self, CalibrationSettings) {
         let shields = &design.interaction.shields;
         let known = shields.fixed.iter().chain(&shields.moving).flatten().next();
         let defaults = CalibrationSettings::default();
         let settings = CalibrationSettings {
-            hold_out_every,
+            hold_out_every: hold_out_every.map_or(defaults.hold_out_every, usize::from),
             start: known.copied().unwrap_or(defaults.start),
             ..defaults
         };

@@ -271,4 +271,8 @@ fn rows_without_iron_alone_give_the_strength() {
         (found["remanence_T"].as_f64().unwrap() / 1.1 - 1.0).abs() < 1e-6,
         "{found}"
     );
+    super::refused(
+        &[&arguments[..], &["--hold-out", "4"]].concat(),
+        &["no row has iron", "leave it out"],
+    );
 }

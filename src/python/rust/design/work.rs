@@ -220,7 +220,7 @@ impl Design {
     ///     shields in place, 0 without) and at least one of `energy_J`, `force_x_N`, `force_y_N`,
     ///     `torque_Nm`.
     /// hold_out : int, optional
-    ///     Hold out one in this many rows from the fit.
+    ///     Hold out one in this many rows from the fit of shields; 5 by default.
     ///
     /// Returns
     /// -------
