@@ -6,7 +6,7 @@ use crate::document::{Document, Drawing, Entries, Entry, Table, Unit, describe, 
 use crate::files::{PAGE, REPORT};
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::calibration::bonds::{Times, TimesFit};
-use jobs::calibration::distances::DistanceFit;
+use jobs::calibration::distances::{DistanceFit, critical};
 use jobs::calibration::strength::{Compared, StrengthFit};
 use jobs::calibration::{Calibration, Fitted, QUANTITIES, Residuals};
 use jobs::design::Design;
@@ -473,24 +473,5 @@ fn distances(design: &Design, found: &DistanceFit) -> Document<'static> {
         notes: refuted.into_iter().collect(),
         origin: "distances of pairs".to_owned(),
         ..Document::default()
-    }
-}
-
-/// The 95 % quantile of chi-square (Wilson and Hilferty 1931, doi:10.1073/pnas.17.12.684).
-fn critical(freedom: usize) -> f64 {
-    let part = 2.0 / (9.0 * freedom.max(1) as f64);
-    freedom as f64 * (1.0 - part + 1.645 * part.sqrt()).powi(3)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn quantiles_are_those_of_chi_square() {
-        for (freedom, tabled) in [(1, 3.841), (4, 9.488), (10, 18.307), (30, 43.773)] {
-            let found = critical(freedom);
-            assert!((found / tabled - 1.0).abs() < 0.03, "{found} {tabled}");
-        }
     }
 }

@@ -10,11 +10,13 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use csv::StringRecord;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::lines::{positive, records};
 use physics::configuration::Configuration;
 use physics::kinetics::rates::distance::Distances;
 use physics::problem::Problem;
+use physics::units::to_digits;
 
 /// The column of a file of distances (m).
 pub const COLUMN: &str = "distance_m";
@@ -246,4 +248,15 @@ fn pearson(shares: &[f64], counts: &[usize]) -> (f64, usize) {
         .iter()
         .map(|[expected, found]| (found - expected).powi(2) / expected);
     (terms.sum(), groups.len().saturating_sub(2))
+}
+
+/// The 95 % quantile of chi-square with so many degrees of freedom, at least one.
+///
+/// ```
+/// use tilebind_jobs::calibration::distances::critical;
+/// assert_eq!([1, 4, 10, 30].map(critical), [3.84146, 9.48773, 18.307, 43.773]);
+/// ```
+pub fn critical(freedom: usize) -> f64 {
+    let all = ChiSquared::new(freedom.max(1) as f64);
+    all.map_or(f64::NAN, |all| to_digits(all.inverse_cdf(0.95), 6))
 }
