@@ -140,6 +140,8 @@ pub struct Table {
     /// The sum of the radii (m).
     radii: f64,
     nodes: Vec<Node>,
+    /// For each [class](class_of) of gaps from that of the first node on, the number of nodes before it.
+    starts: Vec<u32>,
     /// Bounds of V and V' (J, J/m) of discs in contact.
     contact: [f64; 2],
 }
@@ -236,6 +238,12 @@ fn differences(places: &[f64], slopes: &[f64], order: usize) -> Vec<f64> {
     both.map(|(it, error)| it.abs() + error.abs()).collect()
 }
 
+/// Gaps (m, not negative) of which the largest is less than a hundredth wider than the smallest have one
+/// number, and wider ones a greater one, so that a node is found without a search.
+fn class_of(gap: f64) -> usize {
+    (gap.to_bits() >> 45) as usize
+}
+
 impl Table {
     fn new(first: &Magnet, second: &Magnet) -> Self {
         let [first, second] = [first, second].map(|magnet| Magnet {
@@ -304,9 +312,14 @@ impl Table {
         nodes.reverse();
         let [value, slope] = energy(radii + TOUCHING * small);
         let closest = nodes[0].slope.abs().max(slope.abs());
+        let class = |node: &Node| class_of(node.r - radii);
+        let starts = (class(&nodes[0])..=class(&nodes[nodes.len() - 1]))
+            .map(|it| nodes.partition_point(|node| class(node) < it) as u32)
+            .collect();
         Self {
             radii,
             nodes,
+            starts,
             contact: [1.001 * value, 1.01 * closest],
         }
     }
@@ -317,9 +330,11 @@ impl Table {
 
     /// The number of the last node that is no farther than r, if there are any.
     fn before(&self, r: f64) -> Option<usize> {
-        self.nodes
-            .partition_point(|node| node.r <= r)
-            .checked_sub(1)
+        let first = class_of(self.nodes[0].r - self.radii);
+        let class = class_of((r - self.radii).max(0.0)).checked_sub(first)?;
+        let start = self.starts[class.min(self.starts.len() - 1)] as usize;
+        let passed = self.nodes[start..].iter().take_while(|node| node.r <= r);
+        (start + passed.count()).checked_sub(1)
     }
 
     fn at(&self, r: f64) -> Value {

@@ -1,12 +1,14 @@
 //! The pairs of two tiles' magnets one by one, as bounds over cells need them.
 
+use std::cell::RefCell;
+
 use nalgebra::{Complex, Vector2};
 
 use super::near::exact;
 use super::{Alike, Body, BodyPotential, Pairs};
 use crate::configuration::Configuration;
 use crate::potential::far::PairEnergy;
-use crate::potential::far::rows::{Facing, Lane, Several};
+use crate::potential::far::rows::{Facing, Known, Lane, Several};
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task};
 
@@ -19,6 +21,14 @@ pub(in crate::potential) struct Single<'a> {
     /// Their energy, if they are so far apart that the series has it.
     pub far: Option<PairEnergy>,
     pairs: &'a Pairs,
+    coefficients: &'a RefCell<Coefficients>,
+}
+
+/// The coefficients of the series of two groups: at the angle between them, which all of their pairs share,
+/// and at another one.
+struct Coefficients {
+    still: Known,
+    turned: Known,
 }
 
 impl Single<'_> {
@@ -36,8 +46,20 @@ impl Single<'_> {
         let far = &self.pairs.far;
         if ways.iter().all(|way| way.norm_squared() >= far.near()) {
             let complex = |v: Vector2<f64>| Complex::new(v.x, v.y);
+            let Coefficients {
+                still,
+                turned: other,
+            } = &mut *self.coefficients.borrow_mut();
+            let known = match turn == 0.0 {
+                true => still,
+                false => {
+                    other.forget();
+                    other
+                }
+            };
             return Level::best().run(Several {
                 form: far,
+                known,
                 axes: [self.first.direction, turned.direction].map(complex),
                 moments: self.first.moment * self.second.moment,
                 ways: ways.map(complex),
@@ -57,7 +79,12 @@ impl BodyPotential {
         mut each: impl FnMut(&Single),
     ) {
         let (sin, cos) = libm::sincos(q.theta);
+        let coefficients = RefCell::new(Coefficients {
+            still: Known::none(),
+            turned: Known::none(),
+        });
         for ([first, second], pairs) in self.of_groups() {
+            coefficients.borrow_mut().still.forget();
             let turned = second.like.moved([cos, sin], Vector2::zeros());
             if skipped(&first.like, &turned) {
                 continue;
@@ -77,6 +104,7 @@ impl BodyPotential {
                     second: body(second, place, j, &turned),
                     far: (lane.square >= pairs.far.near()).then_some(lane.pair),
                     pairs,
+                    coefficients: &coefficients,
                 });
             };
             let groups = [&first.members, &second.members];

@@ -20,6 +20,8 @@
 //! `<rho^-n> <= rho^-n + n (n + 1) / 2 <d^2> (rho - s)^-(n+2)`. Only distances in the plane count:
 //! points above or below are farther. A disc that lies counts by its chords, one that stands by rings.
 
+use std::sync::LazyLock;
+
 use nalgebra::Vector2;
 
 use crate::potential::bodies::Body;
@@ -211,32 +213,18 @@ impl Parts {
         parts
     }
 
-    /// Strips of a disc, with `a(y)` the area of the disc up to y, `m` its first moment and `s` its second
-    /// one: for the radius 1 the integrals of `2 sqrt(1 - y^2)` times 1, y and y^2.
+    /// Strips of a disc.
     fn by_chords([along, across]: [f64; 2], counts: [usize; 2]) -> Self {
         let radius = across / 2.0;
         let length = along / counts[0] as f64;
-        let moments = |y: f64| {
-            let chord = ((1.0 - y) * (1.0 + y)).max(0.0).sqrt();
-            let area = y * chord + libm::asin(y);
-            let first = -2.0 / 3.0 * chord * chord * chord;
-            let second = (area - 2.0 * y * chord * chord * chord) / 4.0;
-            [area, first, second]
-        };
         let mut parts = Self::NONE;
-        for j in 0..counts[1] {
-            let ends = [j, j + 1].map(|k| 2.0 * k as f64 / counts[1] as f64 - 1.0);
-            let [from, to] = ends.map(moments);
-            let [area, first, second] = [0, 1, 2].map(|n| to[n] - from[n]);
-            let y = first / area;
-            let square = (second / area - y * y).max(0.0) * radius * radius;
-            let farthest = ends.into_iter().map(|end| (end - y).abs());
-            let aside = radius * farthest.fold(0.0, f64::max);
+        for strip in &STRIPS[counts[1] - 1] {
+            let aside = radius * strip.farthest;
             parts.radius = parts.radius.max(libm::hypot(length / 2.0, aside));
+            let square = strip.square * radius * radius;
             parts.square = parts.square.max(length * length / 12.0 + square);
             for i in 0..counts[0] {
-                let share = area / std::f64::consts::PI * counts[1] as f64;
-                parts.push(length * place(i, counts[0]), radius * y, share);
+                parts.push(length * place(i, counts[0]), radius * strip.y, strip.share);
             }
         }
         parts
@@ -294,6 +282,46 @@ impl Parts {
         let k = self.count;
         (self.x[k], self.y[k], self.weight[k]) = (x, y, weight);
         self.count += 1;
+    }
+}
+
+/// A strip of a disc of radius 1.
+struct Strip {
+    /// Its centroid.
+    y: f64,
+    /// How far its points are from there across the strip: at most, and squared on average.
+    farthest: f64,
+    square: f64,
+    /// Its area, in units of the mean of all strips.
+    share: f64,
+}
+
+/// The strips of a disc that is cut into 1, 2 .. of equal widths.
+static STRIPS: LazyLock<[Vec<Strip>; MOST]> =
+    LazyLock::new(|| std::array::from_fn(|k| (0..=k).map(|j| Strip::new(j, k + 1)).collect()));
+
+impl Strip {
+    /// Number j of `count`, with `a(y)` the area of the disc up to y, `m` its first moment and `s` its second
+    /// one: the integrals of `2 sqrt(1 - y^2)` times 1, y and y^2.
+    fn new(j: usize, count: usize) -> Self {
+        let moments = |y: f64| {
+            let chord = ((1.0 - y) * (1.0 + y)).max(0.0).sqrt();
+            let area = y * chord + libm::asin(y);
+            let first = -2.0 / 3.0 * chord * chord * chord;
+            let second = (area - 2.0 * y * chord * chord * chord) / 4.0;
+            [area, first, second]
+        };
+        let ends = [j, j + 1].map(|k| 2.0 * k as f64 / count as f64 - 1.0);
+        let [from, to] = ends.map(moments);
+        let [area, first, second] = [0, 1, 2].map(|n| to[n] - from[n]);
+        let y = first / area;
+        let farthest = ends.into_iter().map(|end| (end - y).abs());
+        Self {
+            y,
+            farthest: farthest.fold(0.0, f64::max),
+            square: (second / area - y * y).max(0.0),
+            share: area / std::f64::consts::PI * count as f64,
+        }
     }
 }
 

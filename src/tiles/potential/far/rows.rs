@@ -110,6 +110,11 @@ impl Known {
         }
     }
 
+    /// Forgets all, as at another angle.
+    pub fn forget(&mut self) {
+        self.terms = 0;
+    }
+
     /// Forgets what does not apply to these groups.
     fn look_at(&mut self, groups: [&Group; 2]) {
         let (sizes, axes) = (groups.map(|it| it.size), groups.map(|it| it.axis));
@@ -270,6 +275,8 @@ impl FarForm {
 /// Two magnets by their series, the second at several places.
 pub struct Several<'a, const N: usize> {
     pub form: &'a FarForm,
+    /// The coefficients that are known for these directions.
+    pub known: &'a mut Known,
     /// Their directions.
     pub axes: [Complex<f64>; 2],
     /// The product of their moments (A^2 m^4).
@@ -288,9 +295,7 @@ impl<const N: usize> Task for Several<'_, N> {
         let r = [ways.map(|way| way.re), ways.map(|way| way.im)].map(|all| l.load(&all));
         let pairs = Pairs::between(l, r, l.splat(self.moments));
         let turned = (self.axes[0], self.axes[1] * into);
-        let lanes = self
-            .form
-            .alone::<L, true>(l, turned, &pairs, &mut Known::none());
+        let lanes = self.form.alone::<L, true>(l, turned, &pairs, self.known);
         std::array::from_fn(|lane| lanes[lane].pair)
     }
 }

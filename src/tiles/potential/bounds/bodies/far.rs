@@ -65,8 +65,8 @@ impl Pair<'_> {
         let third = self.strength * near2 * near * third / 6.0;
 
         let [first, second] = self.magnets;
-        let radii = self.single.first.radius() + self.single.second.radius();
-        let lever = lever + self.single.second.radius();
+        let radii = self.magnets[0].radius + self.magnets[1].radius;
+        let lever = lever + self.magnets[1].radius;
         let v = self.reach();
         let near = 1.0 / (self.distance() - v - radii);
         let series = 216.0 * w * w

@@ -92,6 +92,8 @@ struct Enclosed {
     own: f64,
     /// Its charge density (A/m).
     density: f64,
+    /// The radius (m) of the circle about it in the tiles' plane.
+    radius: f64,
     /// Half its diagonal (m), and the mean square distance of its points from its centre (m^2).
     half: f64,
     square: f64,
@@ -109,6 +111,7 @@ impl Enclosed {
             // Two faces, whose charges of unlike signs only lower the energy.
             own: density * (2.0 * MU0_OVER_4PI * face.own()).sqrt(),
             density,
+            radius: body.radius(),
             half,
             square,
         }
@@ -213,17 +216,21 @@ struct Pair<'a> {
 impl Pair<'_> {
     /// The largest distance (m) that the cell moves a point of the second magnet.
     fn reach(&self) -> f64 {
-        let lever = self.arm.norm() + self.single.second.radius();
-        self.cell.reach(lever) * ROOM
+        self.cell.reach(self.lever()) * ROOM
+    }
+
+    /// The largest distance (m) of a point of the second magnet from the point about which it turns.
+    fn lever(&self) -> f64 {
+        self.arm.norm() + self.magnets[1].radius
     }
 
     /// K1, K2 and K3 of all faces (J/m, J/m^2, J/m^3) if those that are `apart` (m) in the tiles' plane are
     /// at least that far apart.
-    fn limits(&self, apart: impl Fn(f64) -> f64) -> [f64; 3] {
+    fn limits(&self, distances: &[[f64; 2]; 4], apart: impl Fn(f64) -> f64) -> [f64; 3] {
         let [first, second] = self.magnets;
         let strength = MU0_OVER_4PI * first.density * second.density * ROOM;
         let mut sums = [0.0; 3];
-        for [aside, height] in distances(&self.single.first, &self.single.second) {
+        for &[aside, height] in distances {
             let distance = match (apart(aside), height) {
                 (apart, 0.0) => apart,
                 (apart, height) => libm::hypot(apart.max(0.0), height),
@@ -240,14 +247,15 @@ impl Pair<'_> {
     fn near(&self, out: &mut Enclosure) -> Left {
         let Single { first, second, .. } = self.single;
         let (v, w) = (self.reach(), self.cell.half[2]);
-        let (lever, radius) = (self.arm.norm() + second.radius(), second.radius());
+        let (lever, radius) = (self.lever(), self.magnets[1].radius);
         let apart = Apart::of(Level::best(), [first, second], [v, w]);
         let [one, other] = self.magnets;
         let touching = one.own * other.own;
         let most = apart.map_or(f64::INFINITY, |apart| apart.energy);
         let most = most.min(touching) * ROOM;
         // What exact energies and their slopes err.
-        let closest = distances(first, second).map(|[aside, height]| aside.max(height));
+        let distances = distances(first, second);
+        let closest = distances.map(|[aside, height]| aside.max(height));
         let closest = closest.into_iter().fold(f64::INFINITY, f64::min);
         let (lost, slopes) = match closest < GRAZING.0 * radius {
             true => (GRAZING.1, GRAZING.1),
@@ -260,7 +268,7 @@ impl Pair<'_> {
             let on_the_way = (aside - v).max((aside + self.depths - v) / 2.0);
             on_the_way.min(aside - most_step * v)
         };
-        let [k1, k2, k3] = self.limits(aside);
+        let [k1, k2, k3] = self.limits(&distances, aside);
         let arc = k1 * lever * w * w * w / 6.0;
         let third = (k3 * v * v * v + 3.0 * k2 * v * lever * w * w) / 6.0 + arc;
         let third = apart.map_or(third, |apart| third.min(apart.remainder));
@@ -301,7 +309,7 @@ impl Pair<'_> {
             };
         }
         // Off the first magnet, if the faces may meet.
-        let meet = distances(first, second)
+        let meet = distances
             .iter()
             .any(|[aside, height]| *height == 0.0 && *aside <= self.slack_of_meeting());
         let (energy, value) = match meet {
@@ -323,7 +331,7 @@ impl Pair<'_> {
 
     /// Faces closer than this (m) count as meeting.
     fn slack_of_meeting(&self) -> f64 {
-        1e-6 * self.single.second.radius()
+        1e-6 * self.magnets[1].radius
     }
 
     /// The energy with the second magnet moved off by a distance (m), in the direction in which the faces
@@ -349,7 +357,7 @@ impl Pair<'_> {
 
     /// The form of second order, with differences over a step (m).
     fn second_order(&self, still: &PairEnergy, h: f64) -> Quadratic {
-        let turn = h / self.single.second.radius();
+        let turn = h / self.magnets[1].radius;
         let change = |there: &PairEnergy, step: f64| {
             let change = (there.gradient - still.gradient) / step;
             [change.x, change.y, (there.slope - still.slope) / step]
