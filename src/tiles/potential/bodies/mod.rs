@@ -63,7 +63,10 @@ use crate::tile::Magnet;
 use crate::tile::magnet::{Form, Shape};
 use crate::units::MU0_OVER_4PI;
 use limits::Limits;
+#[cfg(test)]
+pub(in crate::potential) use near::exact;
 use nearby::Nearby;
+pub(in crate::potential) use series::magnitudes_of;
 pub(in crate::potential) use single::Single;
 use sum::Sum;
 

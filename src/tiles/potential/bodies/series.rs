@@ -4,7 +4,7 @@ use super::Body;
 use crate::potential::MagnetModel;
 use crate::potential::far::FarForm;
 use crate::potential::far::multipole::{
-    Form, Multipole, along, composed, powers, product, squares,
+    Form, Multipole, along, composed, magnitudes, powers, product, squares,
 };
 use crate::tile::magnet::Shape;
 
@@ -13,19 +13,19 @@ const TERMS: usize = 12;
 const BOUND_TERMS: usize = 22;
 
 /// The terms of degree 0, 2, 4 .. of S, in the magnet's own directions.
-fn average(body: &Body) -> Vec<Form> {
+fn average(body: &Body, terms: usize) -> Vec<Form> {
     let [first, across, up] = &squares();
     let [a, b, c] = body.size;
-    let length = |square: &Form, length: f64| along(square, BOUND_TERMS, length);
+    let length = |square: &Form, length: f64| along(square, terms, length);
     let parts = match (body.shape, body.stands) {
         (Shape::Block, _) => vec![length(first, a), length(across, b), length(up, c)],
         (Shape::Disc, stands) => {
             let (axis, height, diameter) = if stands { (up, c, a) } else { (first, a, b) };
             let disc = |k: f64| -diameter * diameter / 16.0 / (k * (k + 1.0));
-            vec![length(axis, height), powers(axis, BOUND_TERMS, disc)]
+            vec![length(axis, height), powers(axis, terms, disc)]
         }
     };
-    composed(&parts, BOUND_TERMS)
+    composed(&parts, terms)
 }
 
 /// The series of two magnets that both lie flat or both stand, with errors of `tolerance` (see
@@ -39,16 +39,28 @@ pub fn series(model: MagnetModel, first: &Body, second: &Body, tolerance: f64) -
         },
         MagnetModel::Cuboid => *body,
     };
-    let (first, second) = (&of(first), &of(second));
-    let times = |forms: Vec<Form>, by: &[f64]| -> Vec<Form> {
-        forms.iter().map(|form| product(form, by)).collect()
-    };
-    let [a, b] = match first.stands {
-        true => [average(first), times(average(second), &[0.0, -4.0, 0.0])],
-        false => [first, second].map(|body| times(average(body), &[1.0, 1.0])),
-    };
+    let [a, b] = operators(&of(first), &of(second), BOUND_TERMS);
     match model {
         MagnetModel::Dipole => FarForm::of_dipoles(Multipole::new([&a, &b], 2)),
         MagnetModel::Cuboid => FarForm::new(Multipole::new([&a, &b], TERMS), tolerance),
     }
+}
+
+/// The operators of two magnets, by their terms of ascending degrees.
+fn operators(first: &Body, second: &Body, terms: usize) -> [Vec<Form>; 2] {
+    let times = |forms: Vec<Form>, by: &[f64]| -> Vec<Form> {
+        forms.iter().map(|form| product(form, by)).collect()
+    };
+    let [a, b] = [first, second].map(|body| average(body, terms));
+    match first.stands {
+        true => [a, times(b, &[0.0, -4.0, 0.0])],
+        false => [a, b].map(|forms| times(forms, &[1.0, 1.0])),
+    }
+}
+
+/// The A_k (m^(2k)) of the first terms of the series of two magnets that both lie flat or both stand (see
+/// [`multipole`](crate::potential::far::multipole)).
+pub fn magnitudes_of(first: &Body, second: &Body, terms: usize) -> Vec<f64> {
+    let [a, b] = operators(first, second, terms);
+    magnitudes([&a, &b])
 }

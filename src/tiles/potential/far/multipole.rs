@@ -101,9 +101,13 @@ pub fn composed(parts: &[Vec<Form>], count: usize) -> Vec<Form> {
     forms
 }
 
-/// The rising factorial (1/2)_n.
-fn rising_half(n: usize) -> f64 {
-    (0..n).map(|i| i as f64 + 0.5).product()
+/// The rising factorials (1/2)_0 to (1/2)_n.
+fn rising_halves(n: usize) -> Vec<f64> {
+    let mut all = vec![1.0];
+    for i in 0..n {
+        all.push(all[i] * (i as f64 + 0.5));
+    }
+    all
 }
 
 /// The index of the coefficient C_kl among those of all terms, given `l / 2`.
@@ -175,12 +179,8 @@ impl Multipole {
         let all: Vec<_> = (0..first.len()).map(|k| term(first, second, k)).collect();
         // The values of l' of term k.
         let turns = |k: usize| second[k].len();
-        let by_order = |k: usize| (0..k + 2).map(move |n| (n..).step_by(k + 2).take(turns(k)));
-        let magnitude = |(k, all): (usize, &Vec<f64>)| {
-            let all = by_order(k).flatten().map(|at| all[at].abs());
-            all.sum()
-        };
-        let magnitudes = all.iter().enumerate().map(magnitude).collect();
+        let numbered = all.iter().enumerate();
+        let magnitudes = numbered.map(|(k, all)| magnitude(all, k)).collect();
         let orders = turns(terms - 1).div_ceil(2);
         let (mut sums, mut differences) = (vec![[0.0; ROOM]; orders], vec![[0.0; ROOM]; orders]);
         for (k, all) in all.iter().take(terms).enumerate() {
@@ -298,10 +298,25 @@ impl Multipole {
     }
 }
 
+/// A_k, given the coefficients T of term `k`.
+fn magnitude(all: &[f64], k: usize) -> f64 {
+    let by_order = (0..k + 2).flat_map(|n| all[n..].iter().step_by(k + 2));
+    by_order.map(|it| it.abs()).sum()
+}
+
+/// The A_k (m^(2k)) of operators given by their parts.
+pub fn magnitudes([first, second]: [&[Form]; 2]) -> Vec<f64> {
+    let terms = 0..first.len();
+    terms
+        .map(|k| magnitude(&term(first, second, k), k))
+        .collect()
+}
+
 /// The coefficients T of term `k`, folded onto n >= 0 (l = 2 n): by turns, in steps of 2, and by n.
 pub fn term(first: &[Form], second: &[Form], k: usize) -> Vec<f64> {
     let last = second[k].len() - 1;
     let mut values = vec![0.0; (last + 1) * (k + 2)];
+    let rising = rising_halves(2 * k + 2);
     for j in 0..=k {
         let (a, b) = (&first[j], &second[k - j]);
         for (m1, x) in a.iter().enumerate() {
@@ -313,7 +328,7 @@ pub fn term(first: &[Form], second: &[Form], k: usize) -> Vec<f64> {
                 let fold = if p == q { 1.0 } else { 2.0 };
                 // The turn is m2 - n2, with m2 + n2 = b.len() - 1.
                 let (n, turn) = ((p - q) / 2, (last + 2 * m2 + 1 - b.len()) / 2);
-                values[turn * (k + 2) + n] += fold * x * y * rising_half(p) * rising_half(q);
+                values[turn * (k + 2) + n] += fold * x * y * rising[p] * rising[q];
             }
         }
     }

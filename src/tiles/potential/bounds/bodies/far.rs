@@ -34,12 +34,12 @@ pub(super) fn extent(body: &Body) -> [f64; 2] {
 }
 
 impl Pair<'_> {
-    fn distance(&self) -> f64 {
+    pub(super) fn distance(&self) -> f64 {
         (self.single.second.position - self.single.first.position).norm()
     }
 
     /// The largest distance (m) that the cell moves the second magnet's centre.
-    fn centre_reach(&self) -> f64 {
+    pub(super) fn centre_reach(&self) -> f64 {
         self.cell.reach(self.arm.norm()) * ROOM
     }
 

@@ -10,8 +10,8 @@
 //!
 //! * the form of second order, with value and gradient of the exact energy at the cell's centre and a
 //!   Hessian from differences of the gradient over a step h. Its remainder is that of uniform
-//!   distributions of dipoles (see [`Apart`]), or from the K of pairs of faces (see [`faces`]), with the
-//!   speed v of the fastest point, the turn w, and the magnet's distance a from the point about which
+//!   distributions of dipoles (see [`series`], and closer [`Apart`]), or from the K of pairs of faces (see
+//!   [`faces`]), with the speed v of the fastest point, the turn w, and the magnet's distance a from the point about which
 //!   it turns: `(K3 v^3 + 3 K2 v a w^2 + K1 a w^3) / 6`. The differences err by `h / 2` times the third
 //!   derivatives: at most by `h / 2 v^2` times their bound for a unit of motion.
 //! * the form of first order in the magnet's own place and turn, s its radius: `(K2 v^2 + K1 s w^2) / 2
@@ -30,6 +30,7 @@
 
 mod faces;
 mod far;
+mod series;
 
 use nalgebra::Vector2;
 
@@ -46,6 +47,7 @@ use crate::scale::Scale;
 use crate::tile::{Magnet, Tile};
 use crate::units::MU0_OVER_4PI;
 use faces::{Face, distances, sides};
+use series::SeriesBounds;
 
 /// Pairs are far beyond this many times the sum of their half diagonals, and the magnet's reach.
 const CLOSE: f64 = 3.0;
@@ -76,6 +78,8 @@ pub struct BodyBounds {
     potential: BodyPotential,
     fixed: Vec<Enclosed>,
     moving: Vec<Enclosed>,
+    /// By the kinds of the fixed and the moving magnet; `None` if one lies and the other stands.
+    series: Vec<Vec<Option<SeriesBounds>>>,
     /// Pairs that others bound.
     skipped: fn(&Body, &Body) -> bool,
     /// How much (m) magnets may overlap in configurations that count as free.
@@ -86,6 +90,8 @@ pub struct BodyBounds {
 #[derive(Clone, Copy, Debug)]
 struct Enclosed {
     face: Face,
+    /// The number of its size and shape among those of its tile.
+    kind: usize,
     /// How deep (m) it lies within its tile.
     depth: f64,
     /// The square root of the largest energy (J) that its charges may have with a copy of themselves.
@@ -100,13 +106,14 @@ struct Enclosed {
 }
 
 impl Enclosed {
-    fn new(magnet: &Magnet, tile: &Tile) -> Self {
+    fn new(magnet: &Magnet, tile: &Tile, kind: usize) -> Self {
         let body = Body::from(magnet);
         let face = Face::new(&body);
         let density = magnet.moment / body.volume();
         let [half, square] = far::extent(&body);
         Self {
             face,
+            kind,
             depth: depth(magnet, tile),
             // Two faces, whose charges of unlike signs only lower the energy.
             own: density * (2.0 * MU0_OVER_4PI * face.own()).sqrt(),
@@ -130,19 +137,40 @@ pub(super) fn depth(magnet: &Magnet, tile: &Tile) -> f64 {
     walls.fold(wall, f64::min)
 }
 
+/// A tile's magnets, and one of each size and shape.
+fn enclosed(tile: &Tile) -> (Vec<Enclosed>, Vec<Body>) {
+    let (mut all, mut kinds) = (Vec::new(), Vec::<Body>::new());
+    for magnet in &tile.magnets {
+        let body = Body::from(magnet);
+        let form = |it: &Body| (it.size, it.shape, it.stands);
+        let known = kinds.iter().position(|it| form(it) == form(&body));
+        let kind = known.unwrap_or(kinds.len());
+        if kind == kinds.len() {
+            kinds.push(body);
+        }
+        all.push(Enclosed::new(magnet, tile, kind));
+    }
+    (all, kinds)
+}
+
 impl BodyBounds {
     /// Bounds for the pairs of two tiles' magnets that both lie or both stand, but for those that are to be
     /// skipped.
     pub fn new(fixed: &Tile, moving: &Tile, skipped: fn(&Body, &Body) -> bool) -> Self {
-        let of = |tile: &Tile| {
-            let magnets = tile.magnets.iter();
-            magnets.map(|magnet| Enclosed::new(magnet, tile)).collect()
+        let [(own, first), (others, second)] = [fixed, moving].map(enclosed);
+        let series = |one: &Body| {
+            let of = |other: &Body| {
+                let halves = [one, other].map(|body| far::extent(body)[0]);
+                (one.stands == other.stands).then(|| SeriesBounds::new([one, other], halves))
+            };
+            second.iter().map(of).collect()
         };
         let radii = [fixed, moving].map(|tile| tile.outline.circumradius());
         Self {
             potential: BodyPotential::new(MagnetModel::Cuboid, &fixed.magnets, &moving.magnets),
-            fixed: of(fixed),
-            moving: of(moving),
+            fixed: own,
+            moving: others,
+            series: first.iter().map(series).collect(),
             skipped,
             slack: Scale::of(radii).length(SLACK),
         }
@@ -156,6 +184,7 @@ impl BodyBounds {
             strength: (single.first.moment * single.second.moment).abs() * MU0_OVER_4PI,
             arm: single.second.position - cell.centre.position(),
             depths: self.fixed[i].depth + self.moving[j].depth - self.slack,
+            series: self.series[self.fixed[i].kind][self.moving[j].kind].as_ref(),
             cell,
         };
         let left = match single.far.filter(|_| pair.is_far()) {
@@ -210,6 +239,7 @@ struct Pair<'a> {
     arm: Vector2<f64>,
     /// The least distance (m) of the magnets in free configurations.
     depths: f64,
+    series: Option<&'a SeriesBounds>,
     cell: &'a Cell,
 }
 
@@ -243,12 +273,20 @@ impl Pair<'_> {
         sums
     }
 
+    /// The bounds of the series, if the magnets stay far enough apart.
+    fn by_series(&self) -> Option<Apart> {
+        let v = self.centre_reach();
+        let moved = [v, self.cell.half[2]];
+        self.series?.at(self.distance() - v, moved, self.strength)
+    }
+
     /// Adds the tightest form, of a pair that is not far; returns what is left.
     fn near(&self, out: &mut Enclosure) -> Left {
         let Single { first, second, .. } = self.single;
         let (v, w) = (self.reach(), self.cell.half[2]);
         let (lever, radius) = (self.lever(), self.magnets[1].radius);
-        let apart = Apart::of(Level::best(), [first, second], [v, w]);
+        let apart = self.by_series();
+        let apart = apart.or_else(|| Apart::of(Level::best(), [first, second], [v, w]));
         let [one, other] = self.magnets;
         let touching = one.own * other.own;
         let most = apart.map_or(f64::INFINITY, |apart| apart.energy);

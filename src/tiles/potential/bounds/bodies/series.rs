@@ -1,0 +1,213 @@
+//! Bounds for two magnets that stay apart throughout a cell, by their multipole series.
+//!
+//! Term k of the series (see [`multipole`](crate::potential::far::multipole)) is a sum of `r^-n e^(-i l phi)
+//! e^(i l' beta)`, `n = 2 k + 3`, whose coefficients have the absolute sum A_k and whose l' are at most `m =
+//! 2 k + 1` (2 k + 2 for magnets that stand). As the magnets are distributions of pairs of dipoles whose
+//! offsets from the centres together are at most s, half the sum of the diagonals, term k is also a mean of
+//! directional derivatives of `1 / r` of the order n - 1, which are at most `(n - 1)! / r^n`. So A_k may be
+//! replaced by `G_k = (2 k + 1) (2 k + 2) s^(2k)`, of which all are known; as a polynomial in the second
+//! magnet's turn it has the order m as well (Bernstein's inequality).
+//!
+//! Directional derivatives of `P^M Q^N (1 / r)`, `M + N = n - 1`, are sums of the same kind: those of the
+//! order j are at most `n (n + 1) .. (n + j - 1) / r^j` times the bound of the term itself, as `sum_i C(j, i)
+//! (1/2 + M)_i (1/2 + N)_(j-i) = (n)_j`. While the second magnet's centre moves no faster than v, on an arc
+//! at the turn w, and comes no closer than rho, the derivatives along the motion hence are at most those of
+//! `sum A_k e^(m w t) / (rho - d(t))^n`, `d = v (t + w t^2 / 2 + w^2 t^3 / 6)`, in units of `mu0 m1 m2 /
+//! (4 pi)`:
+//!
+//! ```text
+//! |U|    <= sum A_k rho^-n
+//! |U'|   <= sum A_k rho^-n (n v / rho + m w)
+//! |U'''| <= sum A_k rho^-n [n (n+1) (n+2) (v / rho)^3 + 3 n (n+1) (m+1) (v / rho)^2 w
+//!                           + n (3 m^2 + 3 m + 1) (v / rho) w^2 + m^3 w^3]
+//! ```
+//!
+//! Term 0 is that of dipoles. The sums fall with rho: they are known at some distances, and hold from each
+//! of these on.
+
+use super::super::apart::Apart;
+use crate::potential::bodies::{Body, magnitudes_of};
+
+/// Terms of which A_k is computed, and those that are summed: at the least distance each G_k is at most 0.7
+/// times the one before, up to factors that grow like a power of k, so that the others are nothing.
+const TERMS: usize = 64;
+const ALL: usize = 400;
+/// The least and the largest distance of the sums, in units of s.
+const LEAST: f64 = 1.2;
+const MOST: f64 = 128.0;
+/// Room for rounding.
+const ROOM: f64 = 1.0 + 1e-9;
+
+/// The sums of two magnets at distances.
+#[derive(Clone, Debug)]
+pub(super) struct SeriesBounds {
+    /// The [class](class_of) of the least distance.
+    first: usize,
+    /// At the smallest distance of each class.
+    sums: Vec<Sums>,
+}
+
+/// The sums in the bounds, by ascending powers of v.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    energy: f64,
+    slope: [f64; 2],
+    third: [f64; 4],
+}
+
+/// The number of a distance (m) among those that differ by less than a hundredth.
+fn class_of(distance: f64) -> usize {
+    (distance.to_bits() >> 45) as usize
+}
+
+/// The smallest distance (m) of a class.
+fn smallest(class: usize) -> f64 {
+    f64::from_bits((class as u64) << 45)
+}
+
+impl SeriesBounds {
+    /// Of two magnets that both lie or both stand, with half their diagonals (m).
+    pub fn new([first, second]: [&Body; 2], halves: [f64; 2]) -> Self {
+        let s = halves[0] + halves[1];
+        // In units of s^(2k), as numbers would be too small otherwise.
+        let [one, other] = [first, second].map(|body| Body {
+            size: body.size.map(|side| side / s),
+            ..*body
+        });
+        let known = magnitudes_of(&one, &other, TERMS);
+        let of_dipoles = |k: usize| ((2 * k + 1) * (2 * k + 2)) as f64;
+        let magnitude = |k: usize| {
+            let most = of_dipoles(k);
+            known.get(k).map_or(most, |it| it.min(most))
+        };
+        let magnitudes: Vec<f64> = (0..ALL).map(magnitude).collect();
+        let classes = class_of(LEAST * s) + 1..class_of(MOST * s);
+        let least_turn = if first.stands { 2.0 } else { 1.0 };
+        let sums = |class| Sums::new(&magnitudes, least_turn, [smallest(class), s]);
+        Self {
+            first: classes.start,
+            sums: classes.map(sums).collect(),
+        }
+    }
+
+    /// For magnets whose centres stay a distance (m) apart, where the second one's moves by at most v (m) and
+    /// turns by at most w, in units of `strength` (J m^3); `None` if that is too close, or very far.
+    pub fn at(&self, distance: f64, [v, w]: [f64; 2], strength: f64) -> Option<Apart> {
+        let class = class_of(distance.max(0.0)).checked_sub(self.first)?;
+        let sums = self.sums.get(class)?;
+        let scale = ROOM * strength;
+        let [turning, moving] = sums.slope;
+        let [a, b, c, d] = sums.third;
+        let third = ((d * v + c * w) * v + b * w * w) * v + a * w * w * w;
+        Some(Apart {
+            energy: scale * sums.energy,
+            slope: scale * (moving * v + turning * w),
+            remainder: scale * third / 6.0,
+            is_coarse: false,
+        })
+    }
+}
+
+impl Sums {
+    /// At a distance (m) of magnets with an s (m), with A_k in units of s^(2k), and m of term 0.
+    fn new(magnitudes: &[f64], least_turn: f64, [rho, s]: [f64; 2]) -> Self {
+        let mut sums = Self::default();
+        let inverse = 1.0 / rho;
+        for (k, magnitude) in magnitudes.iter().enumerate() {
+            let (n, m) = ((2 * k + 3) as f64, 2.0 * k as f64 + least_turn);
+            let term = magnitude * inverse.powi(3) * (s * inverse).powi(2 * k as i32);
+            sums.energy += term;
+            sums.slope[0] += m * term;
+            sums.slope[1] += n * inverse * term;
+            let third = [
+                m * m * m,
+                n * (3.0 * m * m + 3.0 * m + 1.0) * inverse,
+                3.0 * n * (n + 1.0) * (m + 1.0) * inverse * inverse,
+                n * (n + 1.0) * (n + 2.0) * inverse * inverse * inverse,
+            ];
+            for (sum, factor) in sums.third.iter_mut().zip(third) {
+                *sum += factor * term;
+            }
+        }
+        sums
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector2;
+
+    use super::super::far::extent;
+    use super::*;
+    use crate::potential::bodies::exact;
+    use crate::tile::magnet::Shape;
+    use crate::units::MU0_OVER_4PI;
+
+    /// The energy and its first and third derivatives by time, by differences, along motions that turn the
+    /// second magnet about a point and shift it, are within the bounds, and these are not much wider.
+    #[test]
+    fn energies_and_derivatives_stay_within_their_bounds() {
+        let (mut closest, mut count) = ([f64::INFINITY; 3], 0);
+        for k in 0..240u32 {
+            let stands = k % 3 == 2;
+            let size = match stands {
+                true => [0.006, 0.006, 0.003],
+                false => [0.003, 0.006, 0.006],
+            };
+            let body = |shape: Shape, position: Vector2<f64>, turn: f64| Body {
+                position,
+                direction: Vector2::new(libm::cos(turn), libm::sin(turn)),
+                moment: 1.0,
+                size,
+                shape,
+                stands,
+            };
+            let r = 0.0085 + 0.0005 * f64::from(k % 40);
+            let aside = 1.3 * f64::from(k);
+            let way = Vector2::new(libm::cos(aside), libm::sin(aside));
+            let shape = [Shape::Disc, Shape::Block][k as usize / 3 % 2];
+            let first = body(Shape::Disc, Vector2::zeros(), 0.2);
+            let second = body(shape, way * r, 0.37 * f64::from(k));
+            let bounds =
+                SeriesBounds::new([&first, &second], [&first, &second].map(|it| extent(it)[0]));
+            let centre = second.position - Vector2::new(0.02, 0.01);
+            let (turn, half) = (0.02, 0.0004);
+            let reach = half + (second.position - centre).norm() * turn;
+            let Some(apart) = bounds.at(r - reach, [reach, turn], MU0_OVER_4PI) else {
+                continue;
+            };
+            let shift = way * half * if k % 2 == 0 { 1.0 } else { -1.0 };
+            let at = |t: f64| {
+                let (sin, cos) = libm::sincos(turn * t);
+                let back = Body {
+                    position: second.position - centre,
+                    ..second
+                };
+                exact(&first, &back.moved([cos, sin], centre + shift * t)).energy
+            };
+            let h = 0.15;
+            for t in [-0.7, 0.0, 0.6] {
+                let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(t + k * h));
+                let found = [
+                    at(t).abs(),
+                    (c - b).abs() / (2.0 * h),
+                    (d - 2.0 * c + 2.0 * b - a).abs() / (2.0 * h * h * h),
+                ];
+                let bounds = [apart.energy, apart.slope, 6.0 * apart.remainder];
+                for i in 0..3 {
+                    let lost = 1e-10 * apart.energy / h.powi([0, 1, 3][i]);
+                    assert!(
+                        found[i] <= bounds[i] + lost,
+                        "{k} {t} {i}: {found:?} {apart:?}"
+                    );
+                    closest[i] = closest[i].min(bounds[i] / found[i]);
+                }
+                count += 1;
+            }
+        }
+        assert!(count > 500, "{count}");
+        let most = [1.6, 2.5, 5.0];
+        let tight = closest.iter().zip(most).all(|(ratio, most)| *ratio < most);
+        assert!(tight, "{closest:?}");
+    }
+}
