@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-/// Names of this many letters are never shortened.
-const LEAST_NAME: usize = 12;
+/// Names longer than the first share of a terminal's width are shortened to the second one.
+const MOST_NAME: [[usize; 2]; 2] = [[3, 4], [1, 4]];
 
 /// Rows of equal length with their columns aligned.
 pub fn write_table<R: AsRef<[String]>>(text: &mut String, rows: &[R]) {
@@ -29,13 +29,16 @@ pub fn write_fitted(text: &mut String, rows: &[Vec<String>], columns: Option<usi
         let width = columns.unwrap_or(usize::MAX);
         table.lines().all(|line| line.chars().count() <= width)
     };
-    let mut table = String::new();
-    write_table(&mut table, rows);
-    if fits(&table) {
-        text.push_str(&table);
-        return;
+    let short_names = with_short_names(rows, columns.unwrap_or(usize::MAX));
+    for rows in [rows, &short_names] {
+        let mut table = String::new();
+        write_table(&mut table, rows);
+        if fits(&table) {
+            text.push_str(&table);
+            return;
+        }
     }
-    let rows = &with_short_names(rows, columns.unwrap_or(usize::MAX) / 3);
+    let rows = &short_names;
     let count = rows.first().map_or(0, Vec::len);
     let short: Vec<&[String]> = rows.iter().map(|row| &row[..count - 1]).collect();
     let mut table = String::new();
@@ -51,16 +54,15 @@ pub fn write_fitted(text: &mut String, rows: &[Vec<String>], columns: Option<usi
     }
 }
 
-/// The same rows with the middle of long names in the first column left out, so that the other columns
-/// have room; two names that differ at either end stay different.
-fn with_short_names(rows: &[Vec<String>], most: usize) -> Vec<Vec<String>> {
+/// The same rows where names in the first column that leave hardly any room for the others (see [`MOST_NAME`])
+/// lack their middles; two that differ at either end stay different.
+fn with_short_names(rows: &[Vec<String>], columns: usize) -> Vec<Vec<String>> {
     let mut rows = rows.to_vec();
     for name in rows.iter_mut().filter_map(|row| row.first_mut()) {
         let letters: Vec<char> = name.chars().collect();
-        if letters.len() > most.max(LEAST_NAME) {
-            let kept = most.max(LEAST_NAME) - 1;
-            let (start, end) = letters.split_at(kept.div_ceil(2));
-            let end = &end[end.len() - kept / 2..];
+        let [most, kept] = MOST_NAME.map(|of| columns / of[1] * of[0]);
+        if letters.len() > most {
+            let (start, end) = (&letters[..kept / 2], &letters[letters.len() - kept / 2..]);
             *name = start.iter().chain(&['…']).chain(end).collect();
         }
     }
@@ -103,6 +105,6 @@ mod tests {
         let row = |last: &str| vec![name(last), "0.5".to_owned(), "1.5".to_owned()];
         let mut text = String::new();
         write_fitted(&mut text, &[row("1"), row("2")], Some(40));
-        assert_eq!(text, "aaaaaa…aaaaa1  0.5  1.5\naaaaaa…aaaaa2  0.5  1.5\n");
+        assert_eq!(text, "aaaaa…aaaa1  0.5  1.5\naaaaa…aaaa2  0.5  1.5\n");
     }
 }

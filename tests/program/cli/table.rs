@@ -382,7 +382,7 @@ fn wrong_tables_are_refused_with_their_fix() {
         (&[TILE, "--orbital", "1,1e9"], "at most 1000 Hz"),
         (
             &[TILE, "--orbital", "1e300,1e300"],
-            "at most 1 m, not 1e300 m; ",
+            "at most 1 m, not 1e300 m",
         ),
         (&[TILE, "--linear", "0.01,5"], "linear shaking is A,F,ANGLE"),
         (&[TILE, "--linear", "5,5,0"], "did you mean \"5 mm,5,0\"?"),

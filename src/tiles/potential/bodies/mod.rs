@@ -108,7 +108,7 @@ impl From<&Magnet> for Body {
 
 impl Body {
     /// The body moved by a rotation (cos, sin) and a shift.
-    fn moved(&self, [cos, sin]: [f64; 2], shift: Vector2<f64>) -> Self {
+    pub(in crate::potential) fn moved(&self, [cos, sin]: [f64; 2], shift: Vector2<f64>) -> Self {
         let turn = |v: Vector2<f64>| Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
         Self {
             position: turn(self.position) + shift,
