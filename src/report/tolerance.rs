@@ -27,6 +27,8 @@ pub const FILES: Command = Command {
 
 /// Sources of variance listed for people.
 const LISTED: usize = 12;
+/// Beyond this relative error of followed energies, shares are said to be uncertain.
+const MOST_FOLLOWED: f64 = 0.5;
 /// Number of bars of a histogram.
 const BARS: usize = 30;
 
@@ -35,7 +37,10 @@ pub fn document<'a>(design: &Design, found: &Tolerance) -> Document<'a> {
     Document {
         title: format!("Tolerance of {}", design.name),
         answer: answer(design, found),
-        remarks: vec![errors(found)],
+        remarks: [errors(found)]
+            .into_iter()
+            .chain(too_large(found))
+            .collect(),
         entries: found_entries(design, found),
         pictures: pictures(found).into_iter().map(Drawing::from).collect(),
         notes: notes(design, found),
@@ -63,6 +68,22 @@ fn answer(design: &Design, found: &Tolerance) -> String {
         design.name,
         within(&found.works),
     )
+}
+
+/// That the share is hardly known, as states cannot be followed so far.
+fn too_large(found: &Tolerance) -> Option<String> {
+    let exact = &found.exact;
+    let of_trap = exact.trap.map_or(0.0, |[rms, _]| rms);
+    let worst = exact.bond[0].max(of_trap);
+    let anew = found.anew.as_ref().map_or(String::new(), |anew| {
+        format!(": of those analysed anew {} work", within(&anew.works))
+    });
+    (worst > MOST_FOLLOWED).then(|| {
+        format!(
+            "these errors are too large to follow states: followed energies are off by {}, so that the shares              may be far off{anew}; more --checks tell more",
+            share_to(worst, 2)
+        )
+    })
 }
 
 /// The errors, for people.

@@ -41,7 +41,7 @@ pub struct Anew {
     pub followed: Proportion,
     /// The number of draws on which both agree.
     pub agree: usize,
-    /// Largest relative difference of the bond's energy, and of the deepest trap's.
+    /// Largest relative difference of the bond's energy, and of the deepest trap's, where the new search has one.
     pub differences: [f64; 2],
 }
 
@@ -130,7 +130,8 @@ pub(super) fn anew(
     let followed = &outcomes[..count];
     let both = || followed.iter().zip(&found);
     let largest = |of: &dyn Fn(&Drawn) -> f64| {
-        let relative = both().map(|(a, b)| ((of(a) - of(b)) / of(b).abs().max(1e-300)).abs());
+        let known = both().filter(|(_, b)| of(b) != 0.0);
+        let relative = known.map(|(a, b)| ((of(a) - of(b)) / of(b)).abs());
         relative.fold(0.0, f64::max)
     };
     Some(Anew {

@@ -124,3 +124,19 @@ fn designs_are_ranked_by_the_share_that_works() {
     assert!(run.status.success(), "{}", stderr(&run));
     assert!(stdout(&run).contains("work as made"), "{}", stdout(&run));
 }
+
+/// A share that rests on states which cannot be followed so far is not told as if it were known.
+#[test]
+fn errors_too_large_to_follow_states_are_told() {
+    let file = design();
+    let told = |place: &str, turn: &str| {
+        let errors = [
+            "--place", place, "--turn", turn, "--draws", "50", "--checks", "0",
+        ];
+        let output = tilebind(&[&["tolerance", &file], &errors[..]].concat());
+        assert!(output.status.success(), "{}", stderr(&output));
+        stdout(&output).contains("too large to follow states")
+    };
+    assert!(told("3 mm", "10 deg"));
+    assert!(!told("0.2 mm", "2 deg"));
+}
