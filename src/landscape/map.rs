@@ -8,6 +8,7 @@ use nalgebra::{Rotation2, Vector2};
 
 use super::grid::{Grid, Sample, evenly};
 use super::orientation::{Found, OrientationSearch};
+use tiles::bisection::bisected;
 use tiles::parallel;
 use tiles::problem::Problem;
 use tiles::tile::Pair;
@@ -153,7 +154,7 @@ impl EnergyMap {
 /// Number of rows of points beside the blocked region that are examined again.
 const NARROW: usize = 3;
 /// Halvings of the way between a free and a blocked point in search of the border.
-const HALVINGS: usize = 4;
+const HALVINGS: u32 = 4;
 
 /// The free orientations at each point of a grid.
 struct Field<'a> {
@@ -229,15 +230,7 @@ impl Field<'_> {
         };
         let thetas = [found.middle, found.sample.configuration.theta];
         let (from, to) = (self.place(free), self.place(blocked));
-        let (mut reached, mut missed) = (0.0, 1.0);
-        for _ in 0..HALVINGS {
-            let share = (reached + missed) / 2.0;
-            if self.search.any_is_free(from.lerp(&to, share), &thetas) {
-                reached = share;
-            } else {
-                missed = share;
-            }
-        }
-        reached
+        let is_free = |share| self.search.any_is_free(from.lerp(&to, share), &thetas);
+        bisected(0.0, 1.0, HALVINGS, is_free)[0]
     }
 }

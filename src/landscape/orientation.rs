@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Rotation2, Vector2};
 
 use super::grid::{Sample, with_energies};
+use tiles::bisection::bisected;
 use tiles::configuration::{Configuration, wrap_angle};
 use tiles::contact::Contact;
 use tiles::interruption;
@@ -17,7 +18,7 @@ use tiles::tile::{Face, Outline};
 /// Halvings of the step between orientations in search of the lowest energy.
 const REFINEMENTS: i32 = 6;
 /// Halvings of the step between a free and a blocked orientation in search of contact.
-const BISECTIONS: usize = 4;
+const BISECTIONS: u32 = 4;
 
 /// The search for the lowest energy over theta.
 pub struct OrientationSearch<'a> {
@@ -218,16 +219,9 @@ impl<'a> OrientationSearch<'a> {
     }
 
     /// The free orientation (rad) in contact between a free and a blocked one.
-    fn contact_between(&self, place: Vector2<f64>, mut free: f64, mut blocked: f64) -> f64 {
-        for _ in 0..BISECTIONS {
-            let middle = (free + blocked) / 2.0;
-            if self.is_free(&at(place, middle)) {
-                free = middle;
-            } else {
-                blocked = middle;
-            }
-        }
-        free
+    fn contact_between(&self, place: Vector2<f64>, free: f64, blocked: f64) -> f64 {
+        let is_free = |theta| self.is_free(&at(place, theta));
+        bisected(free, blocked, BISECTIONS, is_free)[0]
     }
 }
 

@@ -40,6 +40,7 @@
 pub mod batch;
 pub mod bodies;
 pub mod bounds;
+mod classes;
 pub mod cuboid;
 pub mod dipole;
 pub(crate) mod far;
@@ -47,6 +48,7 @@ mod flux_density;
 mod function;
 pub(crate) mod groups;
 pub mod interaction;
+mod kinds;
 mod lever;
 mod model;
 pub mod motion;

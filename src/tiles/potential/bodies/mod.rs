@@ -55,6 +55,7 @@ use nalgebra::{Vector2, Vector3};
 
 use super::far::FarForm;
 use super::far::group::Group;
+use super::kinds::number_of;
 use super::lever::Lever;
 use super::simd::Level;
 use super::{MagnetModel, Potential, finite, motion};
@@ -131,7 +132,7 @@ impl Body {
     }
 
     /// Whether it differs from another one only in place, direction and moment.
-    fn is_like(&self, other: &Self) -> bool {
+    pub(in crate::potential) fn is_like(&self, other: &Self) -> bool {
         (self.size, self.shape, self.stands) == (other.size, other.shape, other.stands)
     }
 }
@@ -188,16 +189,15 @@ impl Magnets {
                 let aside = group.like.direction.perp(&body.direction).abs();
                 group.like.is_like(body) && (is_upright_disc || aside < SAME_DIRECTION)
             };
-            let number = groups.iter().position(is_like).unwrap_or(groups.len());
-            if number == groups.len() {
+            let number = number_of(&mut groups, is_like, |number| {
                 let like = Body {
                     position: Vector2::zeros(),
                     moment: 1.0,
                     ..*body
                 };
                 let members = Group::new(number, like.direction);
-                groups.push(Alike { like, members });
-            }
+                Alike { like, members }
+            });
             let group = &mut groups[number];
             let turned = !body.stands && group.like.direction.dot(&body.direction) < 0.0;
             let moment = if turned { -body.moment } else { body.moment };

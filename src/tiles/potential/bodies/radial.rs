@@ -27,6 +27,7 @@ use super::face::{Face, Shape as Charged};
 use super::near::alone;
 use super::{Body, BodyPotential, HAND_OVER};
 use crate::configuration::Configuration;
+use crate::potential::classes::class_of;
 use crate::potential::{MagnetModel, Potential};
 use crate::tile::Magnet;
 use crate::tile::magnet::{Form, Standing};
@@ -236,12 +237,6 @@ fn differences(places: &[f64], slopes: &[f64], order: usize) -> Vec<f64> {
     let found = divided(slopes.to_vec());
     let both = found.iter().zip(&errors);
     both.map(|(it, error)| it.abs() + error.abs()).collect()
-}
-
-/// Gaps (m, not negative) of which the largest is less than a hundredth wider than the smallest have one
-/// number, and wider ones a greater one, so that a node is found without a search.
-fn class_of(gap: f64) -> usize {
-    (gap.to_bits() >> 45) as usize
 }
 
 impl Table {

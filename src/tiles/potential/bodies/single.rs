@@ -21,12 +21,12 @@ pub(in crate::potential) struct Single<'a> {
     /// Their energy, if they are so far apart that the series has it.
     pub far: Option<PairEnergy>,
     pairs: &'a Pairs,
-    coefficients: &'a RefCell<Coefficients>,
+    coefficients: &'a RefCell<SharedSeries>,
 }
 
 /// The coefficients of the series of two groups: at the angle between them, which all of their pairs share,
 /// and at another one.
-struct Coefficients {
+struct SharedSeries {
     still: Known,
     turned: Known,
 }
@@ -46,7 +46,7 @@ impl Single<'_> {
         let far = &self.pairs.far;
         if ways.iter().all(|way| way.norm_squared() >= far.near()) {
             let complex = |v: Vector2<f64>| Complex::new(v.x, v.y);
-            let Coefficients {
+            let SharedSeries {
                 still,
                 turned: other,
             } = &mut *self.coefficients.borrow_mut();
@@ -79,7 +79,7 @@ impl BodyPotential {
         mut each: impl FnMut(&Single),
     ) {
         let (sin, cos) = libm::sincos(q.theta);
-        let coefficients = RefCell::new(Coefficients {
+        let coefficients = RefCell::new(SharedSeries {
             still: Known::none(),
             turned: Known::none(),
         });

@@ -393,9 +393,35 @@ impl Task for Means<'_> {
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use super::*;
     use crate::potential::cuboid::exact;
+
+    /// Asserts that the bounds hold for the energy (J) and its first and third derivatives by time, by differences
+    /// over h of energies with errors of `lost` in units of their bound; returns the bounds over these.
+    pub fn check(
+        apart: &Apart,
+        at: &dyn Fn(f64) -> f64,
+        (t, h, lost): (f64, f64, f64),
+        name: &str,
+    ) -> [f64; 3] {
+        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(t + k * h));
+        let found = [
+            at(t).abs(),
+            (c - b).abs() / (2.0 * h),
+            (d - 2.0 * c + 2.0 * b - a).abs() / (2.0 * h * h * h),
+        ];
+        let bounds = [apart.energy, apart.slope, 6.0 * apart.remainder];
+        for i in 0..3 {
+            // Rounding of energies over the differences.
+            let lost = lost * apart.energy / h.powi([0, 1, 3][i]);
+            assert!(
+                found[i] <= bounds[i] + lost,
+                "{name} {t} {i}: {found:?} {apart:?}"
+            );
+        }
+        [0, 1, 2].map(|i| bounds[i] / found[i])
+    }
 
     /// The energy and its first and third derivatives by time, by differences, along motions that
     /// turn the second block about a point and shift it.
@@ -426,22 +452,8 @@ mod tests {
             };
             let h = 0.1;
             for t in [-0.7, -0.2, 0.0, 0.4, 0.7] {
-                let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(t + k * h));
-                let found = [
-                    at(t).abs(),
-                    (c - b).abs() / (2.0 * h),
-                    (d - 2.0 * c + 2.0 * b - a).abs() / (2.0 * h * h * h),
-                ];
-                let bounds = [apart.energy, apart.slope, 6.0 * apart.remainder];
-                for i in 0..3 {
-                    // Rounding of the pole faces' sums over the differences.
-                    let lost = 1e-9 * apart.energy / h.powi([0, 1, 3][i]);
-                    assert!(
-                        found[i] <= bounds[i] + lost,
-                        "{k} {t} {i}: {found:?} {apart:?}"
-                    );
-                    closest[i] = closest[i].min(bounds[i] / found[i]);
-                }
+                let ratios = check(&apart, &at, (t, h, 1e-9), &k.to_string());
+                closest = [0, 1, 2].map(|i| f64::min(closest[i], ratios[i]));
                 count += 1;
             }
         }

@@ -20,6 +20,7 @@ use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::MagnetModel;
 use crate::potential::bodies::radial::{Limits, Radial, Value};
+use crate::potential::kinds::number_of;
 use crate::tile::{Magnet, Tile};
 
 /// The rounding of a sum over up to a few thousand pairs, relative to the sum of magnitudes.
@@ -72,11 +73,7 @@ fn standing(tile: &Tile) -> (Vec<Standing>, Vec<Magnet>) {
         let Some(up) = magnet.form.stands else {
             continue;
         };
-        let known = sizes.iter().position(|it| it.size == magnet.size);
-        let kind = known.unwrap_or(sizes.len());
-        if kind == sizes.len() {
-            sizes.push(magnet.clone());
-        }
+        let kind = number_of(&mut sizes, |it| it.size == magnet.size, |_| magnet.clone());
         all.push(Standing {
             position: magnet.position,
             moment: up.sign() * magnet.moment,

@@ -52,6 +52,7 @@ pub use super::far::PairEnergy;
 use super::far::group::Group;
 use super::far::multipole::{Form, Multipole, along, composed, product, squares};
 use super::far::rows::Facing;
+use super::kinds::number_of;
 use super::lever::Lever;
 use super::simd::Level;
 use super::{DipolePotential, Potential, motion};
@@ -140,13 +141,7 @@ impl Sizes {
 /// Blocks with the indices of their sizes, and the sizes.
 fn by_size(magnets: &[Magnet]) -> (Vec<SizedBlock>, Vec<[f64; 3]>) {
     let mut sizes: Vec<[f64; 3]> = Vec::new();
-    let mut number = |size: [f64; 3]| {
-        let known = sizes.iter().position(|other| *other == size);
-        known.unwrap_or_else(|| {
-            sizes.push(size);
-            sizes.len() - 1
-        })
-    };
+    let mut number = |size| number_of(&mut sizes, |other| *other == size, |_| size);
     let blocks = magnets
         .iter()
         .map(|magnet| SizedBlock {
@@ -165,10 +160,7 @@ fn groups(blocks: &[SizedBlock]) -> Vec<Group> {
         let same = |group: &Group| {
             group.size == *size && (axis * group.axis.conj()).im.abs() < SAME_DIRECTION
         };
-        let number = groups.iter().position(same).unwrap_or(groups.len());
-        if number == groups.len() {
-            groups.push(Group::new(*size, block.axis));
-        }
+        let number = number_of(&mut groups, same, |_| Group::new(*size, block.axis));
         let along = (axis * groups[number].axis.conj()).re.signum();
         groups[number].push(member, block.position, along * block.moment);
     }

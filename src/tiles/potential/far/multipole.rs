@@ -39,6 +39,7 @@ use std::ops::Range;
 
 use nalgebra::Complex;
 
+use crate::bisection::bisected;
 use crate::potential::simd::lanes::{Lanes, WIDTH};
 
 /// The largest number of terms of a series that are summed, the dipole included.
@@ -230,15 +231,7 @@ impl Multipole {
         while is_much(high) {
             (low, high) = (high, 2.0 * high);
         }
-        for _ in 0..40 {
-            let middle = (low + high) / 2.0;
-            if is_much(middle) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        high
+        bisected(low, high, 40, is_much)[1]
     }
 
     /// Computes the coefficients of some terms for `turn` = e^(i beta), those for derivatives only

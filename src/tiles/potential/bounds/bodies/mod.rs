@@ -41,6 +41,7 @@ use crate::cell::{Cell, Quadratic};
 use crate::potential::bodies::{Body, Single};
 use crate::potential::cuboid::limits::segment_distance;
 use crate::potential::far::PairEnergy;
+use crate::potential::kinds::number_of;
 use crate::potential::simd::Level;
 use crate::potential::{BodyPotential, MagnetModel};
 use crate::scale::Scale;
@@ -78,7 +79,7 @@ pub struct BodyBounds {
     potential: BodyPotential,
     fixed: Vec<Enclosed>,
     moving: Vec<Enclosed>,
-    /// By the kinds of the fixed and the moving magnet; `None` if one lies and the other stands.
+    /// By the kinds of the fixed and the moving magnet; `None` for pairs that others bound.
     series: Vec<Vec<Option<SeriesBounds>>>,
     /// Pairs that others bound.
     skipped: fn(&Body, &Body) -> bool,
@@ -142,12 +143,7 @@ fn enclosed(tile: &Tile) -> (Vec<Enclosed>, Vec<Body>) {
     let (mut all, mut kinds) = (Vec::new(), Vec::<Body>::new());
     for magnet in &tile.magnets {
         let body = Body::from(magnet);
-        let form = |it: &Body| (it.size, it.shape, it.stands);
-        let known = kinds.iter().position(|it| form(it) == form(&body));
-        let kind = known.unwrap_or(kinds.len());
-        if kind == kinds.len() {
-            kinds.push(body);
-        }
+        let kind = number_of(&mut kinds, |it| it.is_like(&body), |_| body);
         all.push(Enclosed::new(magnet, tile, kind));
     }
     (all, kinds)
@@ -161,7 +157,8 @@ impl BodyBounds {
         let series = |one: &Body| {
             let of = |other: &Body| {
                 let halves = [one, other].map(|body| far::extent(body)[0]);
-                (one.stands == other.stands).then(|| SeriesBounds::new([one, other], halves))
+                (one.stands == other.stands && !skipped(one, other))
+                    .then(|| SeriesBounds::new([one, other], halves))
             };
             second.iter().map(of).collect()
         };

@@ -27,6 +27,7 @@
 
 use super::super::apart::Apart;
 use crate::potential::bodies::{Body, magnitudes_of};
+use crate::potential::classes::{class_of, shortest};
 
 /// Terms of which A_k is computed, and those that are summed: at the least distance each G_k is at most 0.7
 /// times the one before, up to factors that grow like a power of k, so that the others are nothing.
@@ -43,7 +44,7 @@ const ROOM: f64 = 1.0 + 1e-9;
 pub(super) struct SeriesBounds {
     /// The [class](class_of) of the least distance.
     first: usize,
-    /// At the smallest distance of each class.
+    /// At the shortest distance of each class.
     sums: Vec<Sums>,
 }
 
@@ -53,16 +54,6 @@ struct Sums {
     energy: f64,
     slope: [f64; 2],
     third: [f64; 4],
-}
-
-/// The number of a distance (m) among those that differ by less than a hundredth.
-fn class_of(distance: f64) -> usize {
-    (distance.to_bits() >> 45) as usize
-}
-
-/// The smallest distance (m) of a class.
-fn smallest(class: usize) -> f64 {
-    f64::from_bits((class as u64) << 45)
 }
 
 impl SeriesBounds {
@@ -83,7 +74,7 @@ impl SeriesBounds {
         let magnitudes: Vec<f64> = (0..ALL).map(magnitude).collect();
         let classes = class_of(LEAST * s) + 1..class_of(MOST * s);
         let least_turn = if first.stands { 2.0 } else { 1.0 };
-        let sums = |class| Sums::new(&magnitudes, least_turn, [smallest(class), s]);
+        let sums = |class| Sums::new(&magnitudes, least_turn, [shortest(class), s]);
         Self {
             first: classes.start,
             sums: classes.map(sums).collect(),
@@ -137,6 +128,7 @@ impl Sums {
 mod tests {
     use nalgebra::Vector2;
 
+    use super::super::super::apart::tests::check;
     use super::super::far::extent;
     use super::*;
     use crate::potential::bodies::exact;
@@ -187,21 +179,8 @@ mod tests {
             };
             let h = 0.15;
             for t in [-0.7, 0.0, 0.6] {
-                let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(t + k * h));
-                let found = [
-                    at(t).abs(),
-                    (c - b).abs() / (2.0 * h),
-                    (d - 2.0 * c + 2.0 * b - a).abs() / (2.0 * h * h * h),
-                ];
-                let bounds = [apart.energy, apart.slope, 6.0 * apart.remainder];
-                for i in 0..3 {
-                    let lost = 1e-10 * apart.energy / h.powi([0, 1, 3][i]);
-                    assert!(
-                        found[i] <= bounds[i] + lost,
-                        "{k} {t} {i}: {found:?} {apart:?}"
-                    );
-                    closest[i] = closest[i].min(bounds[i] / found[i]);
-                }
+                let ratios = check(&apart, &at, (t, h, 1e-10), &k.to_string());
+                closest = [0, 1, 2].map(|i| f64::min(closest[i], ratios[i]));
                 count += 1;
             }
         }
