@@ -10,8 +10,8 @@ use jobs::design::Design;
 use jobs::docking::Paths;
 use jobs::output::Command;
 use physics::configuration::Configuration;
+use physics::dynamics::Snapshot;
 use physics::dynamics::docking::{Docking, DockingMap, DockingRun, End, MatchRule, OnRate};
-use physics::dynamics::{MotionSettings, Snapshot};
 use physics::landscape::{Catalogue, State, StateKind};
 use physics::order::Order;
 use physics::problem::Problem;
@@ -84,32 +84,11 @@ fn found(design: &Design, problem: &Problem, docking: &Docking, paths: Option<&P
 }
 
 fn settings(docking: &Docking) -> Value {
-    let (settings, starts) = (&docking.settings, &docking.settings.starts);
+    let settings = &docking.settings;
     json!({
         "runs": settings.runs, "duration_s": settings.duration,
         "match_threshold_m": docking.threshold,
-        "starts": {
-            "distance_m": starts.distance, "direction_rad": starts.direction,
-            "orientation_rad": starts.orientation, "speed_m_per_s": starts.speed,
-            "aim_rad": starts.aim, "spin_rad_per_s": starts.spin,
-        },
-        "motion": motion(&settings.motion),
-    })
-}
-
-/// The settings of the motion, for reports.
-pub(crate) fn motion(motion: &MotionSettings) -> Value {
-    let fans = motion.fans.iter().map(|fan| {
-        json!({
-            "place_m": fan.place, "energy_J": fan.energy, "width_m": fan.width,
-            "amplitude": fan.amplitude, "frequency_Hz": fan.frequency,
-        })
-    });
-    json!({
-        "drag_per_s": motion.drag, "restitution": motion.restitution,
-        "friction": motion.friction, "walls": motion.walls, "fans": fans.collect::<Value>(),
-        "shaking_J": motion.shaking, "tolerance_m": motion.tolerance,
-        "contact_step_s": motion.contact_step, "contact_travel_m": motion.contact_travel,
+        "starts": settings.starts, "motion": settings.motion,
     })
 }
 

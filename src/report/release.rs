@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::docking::{motion, rate, unsolved};
+use super::docking::{rate, unsolved};
 use crate::document::{Document, entries};
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;
@@ -57,7 +57,7 @@ pub fn document(
                 json!({
                     "runs": settings.runs, "duration_s": settings.duration,
                     "match_threshold_m": settings.threshold,
-                    "motion": motion(&settings.motion),
+                    "motion": settings.motion,
                 }),
             )
             .fact(

@@ -11,6 +11,7 @@ pub struct MotionSettings {
     /// Drag rate c (1/s) of every degree of freedom: without forces, velocities and the angular
     /// velocity decay as e^(-c t). The default is the paper's coefficient 0.0005, read as kg/s, for
     /// its tile of 100 g.
+    #[serde(rename = "drag_per_s")]
     pub drag: f64,
     /// Coefficient of restitution.
     pub restitution: f64,
@@ -22,17 +23,23 @@ pub struct MotionSettings {
     pub fans: Vec<Fan>,
     /// Effective energy kT (J) of a random shaking force: together with the drag it keeps the
     /// kinetic energy at kT / 2 for each degree of freedom.
+    #[serde(rename = "shaking_J")]
     pub shaking: Option<f64>,
     /// Error of a step of free flight (m).
+    #[serde(rename = "tolerance_m")]
     pub tolerance: f64,
     /// Longest step of free flight (s).
+    #[serde(rename = "longest_step_s")]
     pub longest_step: f64,
     /// Contact begins at this clearance (m) and ends at twice as much.
+    #[serde(rename = "contact_range_m")]
     pub contact_range: f64,
     /// Longest step in contact (s). Shorter ones shorten all steps in contact.
+    #[serde(rename = "contact_step_s")]
     pub contact_step: f64,
     /// Largest path (m) of any point of the tile in one step in contact with the other tile; magnets may
     /// require a shorter one.
+    #[serde(rename = "contact_travel_m")]
     pub contact_travel: f64,
 }
 

@@ -17,14 +17,18 @@ const TRAVEL: f64 = 1.0 / 40.0;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Fan {
     /// r_f (m).
+    #[serde(rename = "place_m")]
     pub place: [f64; 2],
     /// E0 (J).
+    #[serde(rename = "energy_J")]
     pub energy: f64,
     /// s (m).
+    #[serde(rename = "width_m")]
     pub width: f64,
     /// Relative amplitude a of its oscillation; 0 for a steady fan.
     pub amplitude: f64,
     /// Frequency f of its oscillation (Hz).
+    #[serde(rename = "frequency_Hz")]
     pub frequency: f64,
 }
 

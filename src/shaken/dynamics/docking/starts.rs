@@ -13,17 +13,23 @@ use tiles::tile::Pair;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Starts {
     /// Distance of the moving tile's reference point from the fixed tile's (m).
+    #[serde(rename = "distance_m")]
     pub distance: [f64; 2],
     /// Largest angle (rad) between its direction and the fixed target face's.
+    #[serde(rename = "direction_rad")]
     pub direction: f64,
     /// Largest difference (rad) of its orientation from the bound one.
+    #[serde(rename = "orientation_rad")]
     pub orientation: f64,
     /// Speed of its centre of mass (m/s).
+    #[serde(rename = "speed_m_per_s")]
     pub speed: [f64; 2],
     /// Largest angle (rad) between the velocity and the direction to the fixed tile's reference
     /// point.
+    #[serde(rename = "aim_rad")]
     pub aim: f64,
     /// Largest angular velocity, either way (rad/s).
+    #[serde(rename = "spin_rad_per_s")]
     pub spin: f64,
 }
 
