@@ -6,9 +6,11 @@ use serde_json::{Value, json};
 use crate::document::{Link, Rows, Table, rows};
 use crate::names::{face_names, kind, pathway_file};
 use crate::plots::Scene;
+use crate::values::read_pose;
 use jobs::design::Design;
 use jobs::pipeline::Analysis;
-use physics::landscape::{Barrier, Catalogue, Kind, Proportion, State, StateKind};
+use physics::configuration::Configuration;
+use physics::landscape::{Barrier, Catalogue, Kind, Place, Proportion, State, StateKind};
 
 /// A state with its further data.
 pub struct Row<'a> {
@@ -145,6 +147,39 @@ pub fn kinds(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
         .linked(kinds.iter().map(|kind| Some(Link::State(kind.first().id))))
 }
 
+/// Some kinds of states in the summary, with this number of digits.
+// One line a column.
+#[rustfmt::skip]
+pub fn listed<'a>(design: &Design, analysis: &'a Analysis, kinds: impl Iterator<Item = Kind<'a>>, digits: usize) -> Table {
+    let (catalogue, names) = (&analysis.catalogue, analysis.catalogue.names());
+    let copies = |it: &Row| match it.copies { 1 => String::new(), copies => format!(" x{copies}") };
+    let leads_to = |it: &Row| match it.escape.as_ref().map(|way| (why_no_way(way), way.to)) {
+        // The letter says which state it is.
+        Some((None, Place::State(to))) => names[to].clone(),
+        Some((None, Place::Free)) => catalogue.name_of(Place::Free),
+        Some((Some(why), _)) => why.to_owned(),
+        None => "none found".to_owned(),
+    };
+    let pairs = |it: &Row| Some(it.pairs()).filter(|pairs| !pairs.is_empty());
+    rows(kinds.map(|kind| Row::of_kind(design, analysis, &names, &kind)))
+        .shown("state", "", |it| catalogue.name_of(Place::State(it.state.id)) + &copies(it))
+        .shown("captures", "", |it| it.capture)
+        .column("_J", "energy", "", |it| it.state.energy).digits(digits)
+        .column("_J", "escape", "", |it| it.way_out().map(Barrier::forward)).digits(digits)
+        .column("bounds_J", "certified", "", |it| certified(it.escape.as_ref().filter(|way| !way.bounds.caged)?)).digits(digits).beside()
+        .shown("to", "", leads_to)
+        .shown("x, y (mm), theta, faces", "", |it| {
+            format!("{}, {}", pose(&it.state.configuration), pairs(it).unwrap_or_else(|| "no contact".to_owned()))
+        })
+        .table("").in_view()
+        .on_terminal()
+}
+
+/// Certified bounds of a barrier.
+fn certified(barrier: &Barrier) -> Option<[f64; 2]> {
+    barrier.certified().map(<[f64; 2]>::from)
+}
+
 /// Barriers with their bounds and pathways.
 pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
     barrier_columns(barriers)
@@ -185,11 +220,10 @@ fn barrier_columns<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Rows<
 #[rustfmt::skip]
 pub fn shown_barriers(analysis: &Analysis, scene: &Scene, way: impl Fn(&Barrier) -> Option<usize>) -> Table {
     let barriers = &analysis.catalogue.barriers;
-    let certified = |it: &&Barrier| it.certified().map(|(lower, upper)| [lower, upper]);
     barrier_columns(barriers)
         .shown("from", "", |it| scene.name_of(it.from))
         .shown("to", "", |it| scene.name_of(it.to))
-        .column("bounds_J", "certified", "proved bounds of the barrier", certified).beside()
+        .column("bounds_J", "certified", "proved bounds of the barrier", |it| certified(it)).beside()
         .shown("no way", "", |it| why_no_way(it))
         .energies(4)
         .view(&["from", "to", "saddle", "barrier", "certified", "barrier back", "no way", "work", "length"])
@@ -210,4 +244,10 @@ pub fn why_no_way(barrier: &Barrier) -> Option<&'static str> {
         true => None,
         false => Some("none found"),
     }
+}
+
+/// A pose in a sentence.
+pub(super) fn pose(q: &Configuration) -> String {
+    let [x, y, theta] = read_pose(q);
+    format!("{x}, {y}, {theta}°")
 }

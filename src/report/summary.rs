@@ -5,16 +5,14 @@
 
 use ordered_float::OrderedFloat;
 
-use crate::document::{Table, rows};
+use crate::document::Table;
 use crate::dynamics;
 use crate::figures::percent;
-use crate::names::face_names;
-use crate::values::read_pose;
+use crate::states::{self, pose};
 use jobs::design::Design;
 use jobs::inspection;
 use jobs::pipeline::Analysis;
 use physics::budget::{Allowance, Ended};
-use physics::configuration::Configuration;
 use physics::landscape::results::SAME_ENERGY;
 use physics::landscape::{Barrier, Catalogue, Kind, LeftOut, Place, Proportion};
 use physics::order::Order;
@@ -113,50 +111,14 @@ pub fn remarks(design: &Design, analysis: &Analysis) -> Vec<String> {
 }
 
 /// The bond and some traps.
-// One line a column.
-#[rustfmt::skip]
 pub fn listed(design: &Design, analysis: &Analysis) -> Table {
-    let Analysis { problem, catalogue, .. } = analysis;
-    let out = |kind: &Kind| catalogue.escape_of_kind(problem, kind.first().class);
-    let kinds = bond(analysis).into_iter().chain(traps(analysis).into_iter().take(LISTED));
-    rows(kinds)
-        .shown("state", "", |kind| name(catalogue, kind))
-        .shown("captures", "", |kind| kind.captured())
-        .column("_J", "energy", "", |kind| kind.first().energy).digits(DIGITS)
-        .column("_J", "escape", "", |kind| out(kind).filter(|way| way.has_way()).map(|way| way.forward())).digits(DIGITS)
-        .column("bounds_J", "certified", "", |kind| certified(out(kind)?)).digits(DIGITS).beside()
-        .shown("to", "", |kind| escape(catalogue, out(kind)))
-        .shown("x, y (mm), theta, faces", "", |kind| {
-            format!("{}, {}", pose(&kind.first().configuration), faces(design, kind))
-        })
-        .table("").in_view()
-        .on_terminal()
-}
-
-fn name(catalogue: &Catalogue, kind: &Kind) -> String {
-    let name = catalogue.name_of(Place::State(kind.first().id));
-    match kind.copies() {
-        1 => name,
-        copies => format!("{name} x{copies}"),
-    }
-}
-
-fn escape(catalogue: &Catalogue, way: Option<&Barrier>) -> String {
-    match way {
-        Some(way) if way.bounds.caged => "caged, proved".to_owned(),
-        Some(way) if way.has_way() => match way.to {
-            // The letter says which state it is.
-            Place::State(to) => catalogue.names()[to].clone(),
-            Place::Free => catalogue.name_of(way.to),
-        },
-        _ => "none found".to_owned(),
-    }
-}
-
-/// Bounds of the climb.
-fn certified(way: &Barrier) -> Option<[f64; 2]> {
-    let bounds = way.certified().filter(|_| !way.bounds.caged);
-    bounds.map(|(lower, upper)| [lower, upper])
+    let traps = traps(analysis).into_iter().take(LISTED);
+    states::listed(
+        design,
+        analysis,
+        bond(analysis).into_iter().chain(traps),
+        DIGITS,
+    )
 }
 
 /// Notes of one or two lines each.
@@ -318,22 +280,4 @@ fn deepest(catalogue: &Catalogue, bond: Option<&Kind>, traps: &[Kind]) -> String
             bond.first().energy / deepest.first().energy,
         ),
     }
-}
-
-/// Names of the faces in contact: `east-west`.
-fn faces(design: &Design, class: &Kind) -> String {
-    let pairs: Vec<String> = face_names(design, class.first())
-        .iter()
-        .map(|pair| pair.join("-"))
-        .collect();
-    if pairs.is_empty() {
-        "no contact".to_owned()
-    } else {
-        pairs.join(" ")
-    }
-}
-
-fn pose(q: &Configuration) -> String {
-    let [x, y, theta] = read_pose(q);
-    format!("{x}, {y}, {theta}°")
 }
