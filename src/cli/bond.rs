@@ -5,8 +5,7 @@ use tilebind::bond::Request;
 use tilebind::report::bond::{FILES, document};
 
 use super::Failure;
-use super::options::{DesignOptions, ThreadOption};
-use super::results::ResultOptions;
+use super::design_job::DesignJob;
 
 /// Print how strongly the bond and the traps hold shaken tiles: depth, docking cost and ln K
 #[derive(Args)]
@@ -24,27 +23,14 @@ Examples:
   tilebind bond shapes/tab-20mm.toml --kt 3e-3 --coverage 0.3 --model cuboid --json")]
 pub struct BondCommand {
     #[command(flatten)]
-    design: DesignOptions,
-
-    #[command(flatten)]
-    request: Request,
-
-    #[command(flatten)]
-    threads: ThreadOption,
-
-    #[command(flatten)]
-    results: ResultOptions,
+    job: DesignJob<Request>,
 }
 
 impl BondCommand {
     pub fn run(self) -> Result<(), Failure> {
-        let design = self.design.load()?;
-        let output = self.results.output(&FILES, self.design.inputs(&design))?;
-        self.threads.use_threads()?;
-        let progress = self.results.progress();
-        let held = self.request.run(&design, output.is_some(), &progress);
+        let (request, mut begun) = self.job.begin(&FILES)?;
+        let held = request.run(&begun.design, begun.is_written(), &begun.progress);
         let held = held.map_err(Failure::of)?;
-        self.results
-            .deliver(&document(&design, &held), output, &progress)
+        begun.deliver(|design| document(design, &held))
     }
 }

@@ -8,6 +8,7 @@ mod calibrate;
 mod compare;
 mod completions;
 mod crosstalk;
+mod design_job;
 mod dock;
 mod energy;
 mod failure;

@@ -5,8 +5,7 @@ use tilebind::observer::Observer;
 use tilebind::rates::Request;
 use tilebind::report::rates::{FILES, document, exit_document};
 
-use super::options::{DesignOptions, ThreadOption};
-use super::results::ResultOptions;
+use super::design_job::DesignJob;
 use super::{Failure, input, workload};
 
 /// Print how fast shaken tiles bind, unbind and change between states
@@ -14,16 +13,7 @@ use super::{Failure, input, workload};
 #[command(after_help = EXAMPLES, after_long_help = format!("{NOTES}\n\n{EXAMPLES}"))]
 pub struct Rates {
     #[command(flatten)]
-    design: DesignOptions,
-
-    #[command(flatten)]
-    request: Request,
-
-    #[command(flatten)]
-    threads: ThreadOption,
-
-    #[command(flatten)]
-    results: ResultOptions,
+    job: DesignJob<Request>,
 }
 
 const NOTES: &str = "\
@@ -52,27 +42,21 @@ Examples:
 
 impl Rates {
     pub fn run(self) -> Result<(), Failure> {
-        let design = self.design.load()?;
-        let output = self.results.output(&FILES, self.design.inputs(&design))?;
-        let request = &self.request;
-        self.threads.use_threads()?;
-        let progress = self.results.progress();
-        let threads = self.threads.count();
-        request.check_memory(threads).map_err(Failure::of)?;
+        let (request, mut begun) = self.job.begin(&FILES)?;
+        let (design, progress) = (&begun.design, &begun.progress);
+        request.check_memory(begun.threads).map_err(Failure::of)?;
         if let Some(start) = request.start {
-            input::doubt_pose(&design, &start);
+            input::doubt_pose(design, &start);
             progress.stage("exit", 0.1);
             let problem = design.problem();
             let (found, check) = request
-                .exit((&design, &problem), start, &progress)
+                .exit((design, &problem), start, progress)
                 .map_err(Failure::of)?;
-            let document = exit_document(&design, &found, check.as_ref());
-            return self.results.deliver(&document, output, &progress);
+            return begun.deliver(|design| exit_document(design, &found, check.as_ref()));
         }
         workload::tell_memory(request.survey().check_memory())?;
-        let found = request.rates(&design, output.is_some(), &progress);
+        let found = request.rates(design, begun.is_written(), progress);
         let found = found.map_err(Failure::of)?;
-        let document = document(&design, &found, request.seed);
-        self.results.deliver(&document, output, &progress)
+        begun.deliver(|design| document(design, &found, request.seed))
     }
 }

@@ -5,24 +5,14 @@ use tilebind::report::tolerance::{FILES, document};
 use tilebind::tolerance::Request;
 
 use super::Failure;
-use super::options::{DesignOptions, ThreadOption};
-use super::results::ResultOptions;
+use super::design_job::DesignJob;
 
 /// Print what errors of making do: tiles drawn with them, and the share that still binds as designed
 #[derive(Args)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{NOTES}\n\n{EXAMPLES}"))]
 pub struct ToleranceCommand {
     #[command(flatten)]
-    design: DesignOptions,
-
-    #[command(flatten)]
-    request: Request,
-
-    #[command(flatten)]
-    threads: ThreadOption,
-
-    #[command(flatten)]
-    results: ResultOptions,
+    job: DesignJob<Request>,
 }
 
 const NOTES: &str = "\
@@ -54,12 +44,9 @@ Examples:
 
 impl ToleranceCommand {
     pub fn run(self) -> Result<(), Failure> {
-        let design = self.design.load()?;
-        let output = self.results.output(&FILES, self.design.inputs(&design))?;
-        self.threads.use_threads()?;
-        let progress = self.results.progress();
-        let found = self.request.run(&design, &progress).map_err(Failure::of)?;
-        self.results
-            .deliver(&document(&design, &found), output, &progress)
+        let (request, mut begun) = self.job.begin(&FILES)?;
+        let found = request.run(&begun.design, &begun.progress);
+        let found = found.map_err(Failure::of)?;
+        begun.deliver(|design| document(design, &found))
     }
 }

@@ -1,0 +1,71 @@
+//! Commands that answer a request about one design.
+
+use clap::Args;
+use tilebind::design::Design;
+use tilebind::output::{Command, Output};
+use tilebind::report::document::Document;
+
+use super::Failure;
+use super::options::{DesignOptions, ThreadOption};
+use super::progress::Progress;
+use super::results::ResultOptions;
+
+/// The options: a design and the request about it.
+#[derive(Args)]
+pub struct DesignJob<R: Args> {
+    #[command(flatten)]
+    design: DesignOptions,
+
+    #[command(flatten)]
+    pub request: R,
+
+    #[command(flatten)]
+    threads: ThreadOption,
+
+    #[command(flatten)]
+    results: ResultOptions,
+}
+
+/// Such a command once its inputs are read and its outputs are known to have room.
+pub struct Begun {
+    pub design: Design,
+    pub progress: Progress,
+    /// How many threads work.
+    pub threads: usize,
+    output: Option<Output>,
+    results: ResultOptions,
+}
+
+impl<R: Args> DesignJob<R> {
+    /// Reads the design and makes ready to write the files of the command.
+    pub fn begin(self, files: &'static Command) -> Result<(R, Begun), Failure> {
+        let design = self.design.load()?;
+        let output = self.results.output(files, self.design.inputs(&design))?;
+        self.threads.use_threads()?;
+        let begun = Begun {
+            design,
+            progress: self.results.progress(),
+            threads: self.threads.count(),
+            output,
+            results: self.results,
+        };
+        Ok((self.request, begun))
+    }
+}
+
+impl Begun {
+    /// Whether a report is written.
+    pub fn is_written(&self) -> bool {
+        self.output.is_some()
+    }
+
+    /// Writes the results, as a document of the design, and prints them.
+    pub fn deliver<'a>(
+        &'a mut self,
+        document: impl FnOnce(&'a Design) -> Document<'a>,
+    ) -> Result<(), Failure> {
+        let output = self.output.take();
+        let document = document(&self.design);
+        self.results.deliver(&document, output, &self.progress)
+    }
+}
