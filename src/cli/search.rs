@@ -6,8 +6,8 @@ use serde_json::json;
 use tilebind::output::Output;
 use tilebind::report::json;
 use tilebind::report::sweep::Searched;
-use tilebind::search::{Found, Search, SearchError, Verdict};
-use tilebind::sweep::{self, Outcome, Plan, Point, Shard, Store};
+use tilebind::search::{Search, SearchError, SearchResult, Verdict};
+use tilebind::sweep::{self, Outcome, Plan, Shard, Store, SweepPoint};
 
 use super::figures::FigureOptions;
 use super::options::PrintOptions;
@@ -28,9 +28,9 @@ pub struct Searching<'a> {
 
 impl Searching<'_> {
     /// Goes on with the results that are there.
-    fn known(&self) -> Result<Found, SearchError> {
+    fn known(&self) -> Result<SearchResult, SearchError> {
         let store = Store::new(self.folder);
-        let known = |_: &Plan, points: &[Point]| Ok::<_, Failure>(loaded(&store, points));
+        let known = |_: &Plan, points: &[SweepPoint]| Ok::<_, Failure>(loaded(&store, points));
         match self.search.run(known) {
             Ok(found) => found,
             // Loading reports no errors.
@@ -47,14 +47,14 @@ impl Searching<'_> {
     }
 
     /// Computes the points of a part, as far as the results of others allow.
-    pub fn work(&self, shard: Shard) -> Result<Result<Found, SearchError>, Failure> {
+    pub fn work(&self, shard: Shard) -> Result<Result<SearchResult, SearchError>, Failure> {
         let store = Store::new(self.folder);
         let most = self.search.aim.points + self.search.most_proofs();
         let bar = PointBar::new(0, most, self.print.quiet);
         let found = self.search.run(|plan, points| {
-            let is_missing = |point: &&Point| store.load(point).is_none();
+            let is_missing = |point: &&SweepPoint| store.load(point).is_none();
             let mine = points.iter().filter(|point| shard.contains(point.index));
-            let missing: Vec<Point> = mine.filter(is_missing).cloned().collect();
+            let missing: Vec<SweepPoint> = mine.filter(is_missing).cloned().collect();
             bar.known(points.len() - missing.len());
             sweep::run(plan, &missing, self.threads, |point, outcome| {
                 interrupt::without(|| store.save(point, outcome))?;
@@ -144,7 +144,7 @@ impl Searching<'_> {
 }
 
 /// The outcomes of all points, or the number of those that have none.
-fn loaded(store: &Store, points: &[Point]) -> Result<Vec<Outcome>, usize> {
+fn loaded(store: &Store, points: &[SweepPoint]) -> Result<Vec<Outcome>, usize> {
     let outcomes: Vec<Outcome> = points
         .iter()
         .filter_map(|point| store.load(point))

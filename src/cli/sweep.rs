@@ -11,7 +11,7 @@ use tilebind::report::sweep::{FILES, Sweep as Report, counts};
 use tilebind::request;
 use tilebind::search::{Request as Aims, Search, SearchError};
 use tilebind::sweep::{
-    self, Axis, DesignSource, Plan, Point, Progress as Counts, Request, Shard, Store,
+    self, Axis, DesignSource, Plan, Progress as Counts, Request, Shard, Store, SweepPoint,
 };
 
 use super::failure::tell_refuted;
@@ -297,7 +297,7 @@ impl Sweep {
             .points()
             .into_iter()
             .filter(|p| shard.contains(p.index));
-        let (known, missing): (Vec<Point>, Vec<Point>) =
+        let (known, missing): (Vec<SweepPoint>, Vec<SweepPoint>) =
             mine.partition(|point| store.load(point).is_some());
         let bar = PointBar::new(known.len(), missing.len(), self.print.quiet);
         sweep::run(plan, &missing, self.threads.count(), |point, outcome| {

@@ -7,12 +7,12 @@
 use serde_json::{Value, json};
 
 use jobs::output::Files;
-use jobs::table::{About, Found};
+use jobs::table::{About, TableResult};
 use physics::table::Kind;
 use physics::tile::{Magnet, magnet::Standing};
 
 /// Both files.
-pub fn files(about: &About, found: &Found) -> Files {
+pub fn files(about: &About, found: &TableResult) -> Files {
     let settings = &found.ensemble.settings;
     let cut_off = found.crowd.couples().iter().map(|it| it.cutoff.to);
     let told = json!({

@@ -2,7 +2,7 @@
 
 use crate::csv::number;
 use jobs::comparison::Assessment;
-use jobs::sweep::{Outcome, Plan, Point, Progress, Store, Value};
+use jobs::sweep::{Outcome, Plan, Progress, Store, SweepPoint, Value};
 use physics::order::Order;
 
 /// The folder of the designs of points.
@@ -31,7 +31,7 @@ pub struct Sweep<'a> {
     /// The plan.
     pub plan: &'a Plan,
     /// The points of the plan, in order.
-    pub points: Vec<Point>,
+    pub points: Vec<SweepPoint>,
     /// The outcome of each point.
     pub outcomes: Vec<Outcome>,
 }
@@ -75,7 +75,7 @@ impl<'a> Sweep<'a> {
 
     /// The file of a point's design beside the results; `None` if it is impossible, or needs
     /// drawings, which are elsewhere.
-    pub fn design_file(&self, point: &Point) -> Option<String> {
+    pub fn design_file(&self, point: &SweepPoint) -> Option<String> {
         let needs_drawings = !self.plan.designs[point.design].drawings.is_empty();
         let possible = self.assessment(point.index).is_some() && point.text().is_some();
         let few = self.points.len() <= MOST_DESIGNS;
@@ -84,7 +84,7 @@ impl<'a> Sweep<'a> {
 
     /// The name of a point by its values: `depth = 5 mm, model = dipole`; preceded by its design if
     /// there are several, or if nothing is varied.
-    pub fn called(&self, point: &Point) -> String {
+    pub fn called(&self, point: &SweepPoint) -> String {
         let design = &self.plan.designs[point.design].name;
         let named = self.plan.designs.len() > 1 || self.plan.axes.is_empty();
         let values = self.plan.axes.iter().zip(&point.values);
@@ -121,7 +121,7 @@ impl<'a> Sweep<'a> {
 
     /// The values that a point shares with others of its series, word by word: the design, if there
     /// are several, and the values along all axes except the given numbers.
-    pub fn common(&self, point: &Point, numbers: &[Variable]) -> Common {
+    pub fn common(&self, point: &SweepPoint, numbers: &[Variable]) -> Common {
         let design = &self.plan.designs[point.design].name;
         let several = self.plan.designs.len() > 1;
         let design = several.then(|| ("design".to_owned(), design.clone()));
@@ -175,7 +175,7 @@ impl Variable {
     }
 
     /// The value of a point.
-    pub fn value(&self, point: &Point) -> Option<f64> {
+    pub fn value(&self, point: &SweepPoint) -> Option<f64> {
         point.values[self.axis].number()
     }
 }

@@ -14,7 +14,8 @@ use jobs::assembly::kinetic::Growth;
 use jobs::output::Files;
 use jobs::request::Shard;
 use jobs::table::{
-    About, Found, Interval, Lifetime, Moment, PART, Prediction, Request, Statistics, Verdict,
+    About, EndOfTable, Interval, Lifetime, Moment, PART, Prediction, Request, Statistics,
+    TableResult,
 };
 use jobs::yields::{self, Chains, KindRates, YieldError, Yields};
 use physics::table::TableSettings;
@@ -26,7 +27,7 @@ use physics::units::{counted, duration, plain, share_to, si};
 /// The document of a table.
 pub fn document<'a>(
     about: &About,
-    found: &'a Found,
+    found: &'a TableResult,
     request: &Request,
     beside: Option<&Beside>,
 ) -> Document<'a> {
@@ -59,7 +60,7 @@ pub fn document<'a>(
 }
 
 /// The recording of the first run, and the file of a part.
-fn files(found: &Found, request: &Request) -> Files {
+fn files(found: &TableResult, request: &Request) -> Files {
     let mut files = Files::from([("trajectory.gsd".to_owned(), trajectory(found))]);
     if request.keeps_frames()
         && let Ok(Some(film)) = film(found)
@@ -87,7 +88,7 @@ fn describe(interval: &Interval) -> String {
     }
 }
 
-fn meaning(about: &About, found: &Found) -> String {
+fn meaning(about: &About, found: &TableResult) -> String {
     let kt = found.statistics.kinetic_kt;
     let has = kt.map(|share| {
         format!(
@@ -96,12 +97,12 @@ fn meaning(about: &About, found: &Found) -> String {
         )
     });
     match (found.statistics.verdict, has) {
-        (Verdict::Thermal, Some(has)) if found.statistics.is_undecided() => format!(
+        (EndOfTable::Thermal, Some(has)) if found.statistics.is_undecided() => format!(
             "(possibly thermal: {has}, with a statistical error of {}; simulate for longer to decide)",
             share_to(found.statistics.kinetic_error, 2)
         ),
-        (Verdict::Thermal, Some(has)) => format!("(thermal: {has})"),
-        (Verdict::Frozen, Some(has)) => format!(
+        (EndOfTable::Thermal, Some(has)) => format!("(thermal: {has})"),
+        (EndOfTable::Frozen, Some(has)) => format!(
             "(frozen: {has}; contact dissipates more than shaking supplies, so the table has no temperature \
              and the results of {} do not apply)",
             match about.pattern {
@@ -109,8 +110,8 @@ fn meaning(about: &About, found: &Found) -> String {
                 None => "`bond`, `rates` and `yield`",
             }
         ),
-        (Verdict::Driven, Some(has)) => format!("(driven: {has})"),
-        (Verdict::Frozen, None) => "(frozen: nothing drives the tiles)".to_owned(),
+        (EndOfTable::Driven, Some(has)) => format!("(driven: {has})"),
+        (EndOfTable::Frozen, None) => "(frozen: nothing drives the tiles)".to_owned(),
         (_, None) => format!(
             "({} the tiles; kT does not apply)",
             drivers(&found.ensemble.settings)
@@ -220,7 +221,7 @@ fn in_pairs(question: &yields::Request, [low, high]: [f64; 2]) -> String {
 }
 
 /// One sentence that compares a prediction with the share of the target, or says why there is none.
-fn against(about: &About, found: &Found, beside: &Beside) -> String {
+fn against(about: &About, found: &TableResult, beside: &Beside) -> String {
     match beside {
         Ok(Prediction::Yield(question, yields)) => against_yield(found, question, yields),
         Ok(Prediction::Growth(growth)) => format!(
@@ -235,7 +236,7 @@ fn against(about: &About, found: &Found, beside: &Beside) -> String {
     }
 }
 
-fn against_yield(found: &Found, question: &yields::Request, yields: &Yields) -> String {
+fn against_yield(found: &TableResult, question: &yields::Request, yields: &Yields) -> String {
     let best = yields.best();
     if let Some(built) = &best.rows {
         return against_rows(found, built);
@@ -268,7 +269,7 @@ fn against_yield(found: &Found, question: &yields::Request, yields: &Yields) -> 
 }
 
 /// The bonds of chains and rings beside those on the table.
-fn against_rows(found: &Found, built: &Chains) -> String {
+fn against_rows(found: &TableResult, built: &Chains) -> String {
     let (here, there) = (&found.statistics.bonds, &built.bonds);
     format!(
         "`tilebind yield` predicts {} bonds ({} to {}) in chains and rings, and here are {}{}",
@@ -294,7 +295,7 @@ fn describe_agreement(agree: Option<bool>) -> &'static str {
     }
 }
 
-fn notes(found: &Found, request: &Request) -> Vec<String> {
+fn notes(found: &TableResult, request: &Request) -> Vec<String> {
     let statistics = &found.statistics;
     let mut notes = vec![format!(
         "energy balance: {} of the largest term is missing; steps of {} or shorter",
@@ -330,7 +331,7 @@ fn notes(found: &Found, request: &Request) -> Vec<String> {
 
 // One line an entry.
 #[rustfmt::skip]
-fn entries(about: &About, found: &Found, seed: u64) -> Entries {
+fn entries(about: &About, found: &TableResult, seed: u64) -> Entries {
     let statistics = &found.statistics;
     let checksum = match &about.designs[..] {
         [(_, sha256)] => Some(sha256),
@@ -383,7 +384,7 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
 }
 
 /// What lifetimes are, for people.
-fn lasting_is(found: &Found) -> String {
+fn lasting_is(found: &TableResult) -> String {
     format!(
         "total time held / number that ended, with its 95 % interval; contacts are recorded every {}, \
          so shorter ones are missed",
@@ -392,7 +393,7 @@ fn lasting_is(found: &Found) -> String {
 }
 
 /// A lifetime for people; one that a run is too short to see is an extrapolation.
-fn lasting(lifetime: &Lifetime, found: &Found) -> String {
+fn lasting(lifetime: &Lifetime, found: &TableResult) -> String {
     let Lifetime { begun, ended, .. } = *lifetime;
     let [low, high] = lifetime.interval.map(|end| match end {
         Some(end) => duration(end, 2),
@@ -414,7 +415,7 @@ fn lasting(lifetime: &Lifetime, found: &Found) -> String {
 }
 
 /// The share of the target, for people.
-fn reached(about: &About, found: &Found) -> String {
+fn reached(about: &About, found: &TableResult) -> String {
     let percent = |x: f64| plain(100.0 * x.clamp(0.0, 1.0), 3);
     let Interval {
         mean,
@@ -451,7 +452,7 @@ fn reached(about: &About, found: &Found) -> String {
     )
 }
 
-fn aim(about: &About, found: &Found) -> &'static str {
+fn aim(about: &About, found: &TableResult) -> &'static str {
     match about.pattern {
         _ if found.target.possible.is_some() => {
             "tiles in structures that are the target, of the largest number that could be"
@@ -472,7 +473,7 @@ fn settings(settings: &TableSettings) -> Value {
     all
 }
 
-fn cut_off(found: &Found) -> Value {
+fn cut_off(found: &TableResult) -> Value {
     let couples = found.crowd.couples().iter().map(|couple| {
         let cutoff = &couple.cutoff;
         json!({"from_m": cutoff.from, "to_m": cutoff.to, "left_out_J": cutoff.left_out})
@@ -481,7 +482,7 @@ fn cut_off(found: &Found) -> Value {
 }
 
 /// Rings, chains and sheets.
-fn structures(found: &Found) -> Table {
+fn structures(found: &TableResult) -> Table {
     let structures = &found.statistics.structures;
     rows(structures.clone())
         .column("kind", "structure", "", |it| it.shape.name())
@@ -508,7 +509,7 @@ fn structures(found: &Found) -> Table {
         )
 }
 
-fn sizes(found: &Found) -> Table {
+fn sizes(found: &TableResult) -> Table {
     rows(found.statistics.clusters.clone())
         .column("size", "tiles", "in a cluster", |it| it.0)
         .column("count", "clusters", "per run at the end, mean", |it| it.1)
@@ -522,7 +523,7 @@ fn sizes(found: &Found) -> Table {
 
 // One line a column.
 #[rustfmt::skip]
-fn course(found: &Found) -> Table {
+fn course(found: &TableResult) -> Table {
     let ends = |of: fn(&Moment) -> Interval| move |it: &Moment| { let at = of(it); at.low.zip(at.high).map(|(low, high)| [low.max(0.0), high]) };
     rows(found.statistics.moments.clone())
         .data("time_s", |it| it.time) // since the start
@@ -538,14 +539,14 @@ fn course(found: &Found) -> Table {
         .in_file("course")
 }
 
-fn samples(found: &Found) -> impl Iterator<Item = (&Run, &Sample)> {
+fn samples(found: &TableResult) -> impl Iterator<Item = (&Run, &Sample)> {
     let runs = found.runs.iter();
     runs.flat_map(|run| run.samples.iter().map(move |sample| (run, sample)))
 }
 
 // One line a column.
 #[rustfmt::skip]
-fn energy(found: &Found) -> Table {
+fn energy(found: &TableResult) -> Table {
     rows(samples(found))
         .data("run", |(run, _)| run.index)
         .data("time_s", |(_, at)| at.time)
@@ -561,7 +562,7 @@ fn energy(found: &Found) -> Table {
 
 // One line a column.
 #[rustfmt::skip]
-fn bonds(found: &Found) -> Table {
+fn bonds(found: &TableResult) -> Table {
     let (kinds, of_tiles) = (&found.crowd.kinds, found.ensemble.kinds());
     let kind = |tile: usize| kinds[of_tiles[tile]].name.clone();
     let lives = found.runs.iter().flat_map(|run| run.lives.iter().map(move |life| (run, life)));
@@ -578,7 +579,7 @@ fn bonds(found: &Found) -> Table {
         .in_csv("bonds")
 }
 
-fn clusters(found: &Found) -> Table {
+fn clusters(found: &TableResult) -> Table {
     let counted = samples(found).flat_map(|(run, at)| {
         let sizes = at.clusters.chunk_by(|a, b| a == b);
         sizes.map(move |equal| (run.index, at.time, equal[0], equal.len()))
@@ -593,7 +594,7 @@ fn clusters(found: &Found) -> Table {
 }
 
 /// `trajectory.csv`.
-fn places(found: &Found) -> Table {
+fn places(found: &TableResult) -> Table {
     let kinds = &found.crowd.kinds;
     let tiles = samples(found).flat_map(|(run, at)| {
         let movers = at.movers.iter().flatten().enumerate();
@@ -620,7 +621,7 @@ fn places(found: &Found) -> Table {
 }
 
 /// The first run, one frame per sample.
-fn trajectory(found: &Found) -> Vec<u8> {
+fn trajectory(found: &TableResult) -> Vec<u8> {
     let crowd = &found.crowd;
     let particle = |mover: &Mover| {
         let body = &crowd.kinds[mover.kind].body;
@@ -654,7 +655,7 @@ fn trajectory(found: &Found) -> Vec<u8> {
     )
 }
 
-fn pictures(found: &Found) -> Vec<Drawing<'_>> {
+fn pictures(found: &TableResult) -> Vec<Drawing<'_>> {
     let moments = &found.statistics.moments;
     let chart = |name, title: &str, y: Dimension| {
         Chart::new(name, title, Dimension::new("time_s", "time"), y)

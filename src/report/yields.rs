@@ -11,7 +11,7 @@ use crate::files::{PAGE, REPORT};
 use crate::plots::chart::{Chart, ChartPoint, Dimension, Look};
 use jobs::design::Design;
 use jobs::output::Command;
-use jobs::yields::attachment::Source;
+use jobs::yields::attachment::RateSource;
 use jobs::yields::{KindRates, Request, Yield, YieldError, Yields};
 use physics::dynamics::MotionSettings;
 use physics::kinetics::OVERDAMPED;
@@ -40,8 +40,8 @@ pub const FILES: Command = Command {
 pub fn document<'a>(design: &'a Design, request: &'a Request, found: &'a Yields) -> Document<'a> {
     let told = request.method.describe();
     let interval = match request.method.source {
-        Source::Docking => "95 %, from the attachment rate",
-        Source::Overdamped => "difference between the two finest meshes",
+        RateSource::Docking => "95 %, from the attachment rate",
+        RateSource::Overdamped => "difference between the two finest meshes",
     };
     let built = found.best().rows.as_ref();
     let mixture = found.mixture.as_ref();
@@ -124,7 +124,7 @@ fn left_out(found: &Yields, has_rows: bool) -> String {
 fn dissipation(request: &Request) -> Option<String> {
     let motion = request.method.motion();
     let takes = motion.restitution < 1.0 || motion.friction > 0.0;
-    let is_docking = request.method.source == Source::Docking;
+    let is_docking = request.method.source == RateSource::Docking;
     (takes && is_docking).then(|| {
         format!(
             "warning: collisions lose energy here (restitution {}, friction {}), so the table has no \
@@ -284,8 +284,8 @@ fn states(outcome: &Yield) -> Table {
 /// The source of detachment rates.
 fn detachment(request: &Request) -> &'static str {
     match request.method.source {
-        Source::Docking => "by detailed balance, as if the table had a temperature",
-        Source::Overdamped => "from the mesh, including direct transitions between states",
+        RateSource::Docking => "by detailed balance, as if the table had a temperature",
+        RateSource::Overdamped => "from the mesh, including direct transitions between states",
     }
 }
 
@@ -293,13 +293,13 @@ fn detachment(request: &Request) -> &'static str {
 fn lifetimes(request: &Request) -> String {
     let drag = request.method.motion().drag;
     match request.method.source {
-        Source::Docking => format!(
+        RateSource::Docking => format!(
             "lifetimes depend on the drag: these are for {drag} /s, with inertia. `tilebind \
              rates` assumes overdamped motion of one tile beside a fixed one, by default at \
              {OVERDAMPED} /s, and gives longer lifetimes; --rates overdamped --drag {OVERDAMPED} solves \
              the same for two tiles that move"
         ),
-        Source::Overdamped => format!(
+        RateSource::Overdamped => format!(
             "lifetimes depend on the drag: these are for {drag} /s, overdamped, with both \
              tiles moving; `tilebind rates --drag {drag}` has one of them at rest, and they last at least \
              twice as long. Without --rates overdamped, docking runs have inertia and a \

@@ -2,8 +2,8 @@
 
 use super::candidates::number;
 use super::effort::Effort;
-use super::frontier::{self, Point};
-use super::search::{self, Found};
+use super::frontier::{self, FrontierPoint};
+use super::search::{self, FoundSet};
 use super::{Judgement, Lags, Task, Word};
 
 /// The request.
@@ -32,10 +32,10 @@ pub struct Answer {
     /// If a number of words was requested: no set of this size has a wider gap than this.
     pub gap_upper: Option<f64>,
     /// If a frontier was requested: its points, from the widest gap on.
-    pub frontier: Vec<Point>,
+    pub frontier: Vec<FrontierPoint>,
     /// If counted contacts do not decide the requested gap: the number of words just beyond the
     /// tie.
-    pub beyond: Option<Point>,
+    pub beyond: Option<FrontierPoint>,
     /// The number of words to choose from, and whether these were all.
     pub candidates: usize,
     /// See `candidates`.
@@ -83,7 +83,7 @@ pub fn answer(task: &Task, question: Question, energies: &Lags, effort: &mut Eff
         }
         Question::Frontier => {
             let points = frontier::frontier(task, MOST_OF_FRONTIER, energies, effort);
-            let distance = |point: &Point| (point.asked - MIDDLE).abs();
+            let distance = |point: &FrontierPoint| (point.asked - MIDDLE).abs();
             let middle = points.iter();
             let middle = middle.min_by(|a, b| distance(a).total_cmp(&distance(b)));
             let Some(middle) = middle.cloned() else {
@@ -98,7 +98,7 @@ pub fn answer(task: &Task, question: Question, energies: &Lags, effort: &mut Eff
     }
 }
 
-fn of(found: Found) -> Answer {
+fn of(found: FoundSet) -> Answer {
     Answer {
         upper: found.upper,
         proved: found.is_proved(),
@@ -114,12 +114,12 @@ fn of(found: Found) -> Answer {
 
 /// The words of a gap half a contact narrower, if the requested gap is a tie in contacts that only
 /// neighbouring lags decide.
-fn beyond(task: &Task, gap: f64, energies: &Lags, effort: &mut Effort) -> Option<Point> {
+fn beyond(task: &Task, gap: f64, energies: &Lags, effort: &mut Effort) -> Option<FrontierPoint> {
     let magnets = task.magnets as f64;
     let contacts = (1.0 - gap) * magnets;
     let rest = task.rest() / task.lags.contact();
     let tied = (contacts - contacts.round()).abs() < 1e-6 && rest > 0.0 && rest < 0.5;
     let few = number(task.places, task.magnets) <= MOST_BEYOND || task.magnets < task.places;
     let is_asked = tied && few && task.rules.fault.is_none() && contacts.round() < magnets;
-    is_asked.then(|| Point::of(task, contacts.round() as usize, energies, effort))
+    is_asked.then(|| FrontierPoint::of(task, contacts.round() as usize, energies, effort))
 }

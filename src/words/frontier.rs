@@ -4,7 +4,7 @@
 use super::Task;
 use super::effort::Effort;
 use super::lag::Lags;
-use super::search::{self, Found};
+use super::search::{self, FoundSet};
 use super::set::{Judgement, Weighed};
 use super::word::Word;
 
@@ -20,7 +20,7 @@ pub struct Widest {
     /// Whether both are equal.
     pub proved: bool,
     /// The result of the search at this gap.
-    pub found: Found,
+    pub found: FoundSet,
 }
 
 /// Gaps closer than this are distinguished by a search at the better one.
@@ -88,7 +88,7 @@ pub fn widest(task: &Task, count: usize, effort: &mut Effort) -> Widest {
     }
 }
 
-fn ask(task: &Task, gap: f64, count: usize, effort: &mut Effort) -> Found {
+fn ask(task: &Task, gap: f64, count: usize, effort: &mut Effort) -> FoundSet {
     effort.share(FOR_A_STEP, |part| search::largest(task, gap, count, part))
 }
 
@@ -103,16 +103,16 @@ fn chosen(task: &Task, words: &[Word], count: usize) -> Vec<Word> {
 
 /// A point of the frontier.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
+pub struct FrontierPoint {
     /// The requested gap: half a contact away from those decided by contacts.
     pub asked: f64,
     /// The result of the search.
-    pub found: Found,
+    pub found: FoundSet,
     /// The evaluation of the words; `None` without words.
     pub judgement: Option<Judgement>,
 }
 
-impl Point {
+impl FrontierPoint {
     /// The words with at most this many net contacts in wrong contacts of faces, separated halfway
     /// to one more; they are judged by `energies`.
     pub(super) fn of(task: &Task, contacts: usize, energies: &Lags, effort: &mut Effort) -> Self {
@@ -129,11 +129,18 @@ impl Point {
 /// The number of words for every allowed number of net contacts t of wrong attractions, from the
 /// widest gap on: at gaps halfway between those of t and t + 1 contacts, so that neighbouring lags
 /// decide nothing. Ends when more than `most` words are found.
-pub fn frontier(task: &Task, most: usize, energies: &Lags, effort: &mut Effort) -> Vec<Point> {
-    let mut points: Vec<Point> = Vec::new();
+pub fn frontier(
+    task: &Task,
+    most: usize,
+    energies: &Lags,
+    effort: &mut Effort,
+) -> Vec<FrontierPoint> {
+    let mut points: Vec<FrontierPoint> = Vec::new();
     for contacts in 0..task.magnets {
         let share = 1.0 / (task.magnets - contacts) as f64;
-        points.push(effort.share(share, |part| Point::of(task, contacts, energies, part)));
+        points.push(effort.share(share, |part| {
+            FrontierPoint::of(task, contacts, energies, part)
+        }));
         if points[contacts].found.words.len() > most {
             break;
         }

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_3, TAU};
 use tilebind::design::Design;
 use tilebind::dynamics::Motion;
 use tilebind::many_bodies::contacts::{Tie, held};
-use tilebind::many_bodies::structures::{Goal, Shape, Structure, are_joined, structures};
+use tilebind::many_bodies::structures::{Goal, Structure, StructureShape, are_joined, structures};
 use tilebind::many_bodies::{Crowd, Mover};
 use tilebind::table::of_designs;
 use tilebind::{Configuration, Problem};
@@ -115,14 +115,18 @@ fn rings_of_three_to_twelve_are_closed() {
         crowd.goal = Some(Goal::Ring(count));
         let (counts, built) = found(&crowd, &of_kind(0, &ring(count)));
         assert_eq!(counts[..2], [count, 0], "{count}");
-        let shapes: Vec<Shape> = built.iter().map(|it| it.shape).collect();
-        assert_eq!(shapes, [Shape::Target, Shape::Ring], "{count}");
+        let shapes: Vec<StructureShape> = built.iter().map(|it| it.shape).collect();
+        assert_eq!(
+            shapes,
+            [StructureShape::Target, StructureShape::Ring],
+            "{count}"
+        );
         assert_eq!((built[1].tiles.len(), built[1].bonds), (count, count));
         // Without one tile it is a chain.
         if count > 3 {
             let (counts, built) = found(&crowd, &of_kind(0, &ring(count)[1..]));
             assert_eq!(counts[..2], [count - 2, 0]);
-            assert_eq!((built.len(), built[0].shape), (1, Shape::Chain));
+            assert_eq!((built.len(), built[0].shape), (1, StructureShape::Chain));
         }
     }
 }
@@ -143,8 +147,8 @@ fn sheets_of_squares_are_whole_or_have_holes() {
         let all: Vec<[f64; 3]> = (0..side * side).map(place).collect();
         let (counts, built) = found(&crowd, &of_kind(0, &all));
         assert_eq!(counts[..2], [2 * side * (side - 1), 0], "{side}");
-        assert_eq!(built[1].shape, Shape::Sheet);
-        assert_eq!(built[0].shape, Shape::Target);
+        assert_eq!(built[1].shape, StructureShape::Sheet);
+        assert_eq!(built[0].shape, StructureShape::Target);
         assert_eq!((built[1].bonds, built[1].holes), (built[1].possible, 0));
         assert_eq!(built[1].rectangle, Some([side, side]));
         if side == 3 {
@@ -173,12 +177,12 @@ fn hexagons_fit_around_one() {
     assert_eq!(built.len(), 1);
     assert_eq!(
         (built[0].shape, built[0].tiles.len(), built[0].holes),
-        (Shape::Sheet, 7, 0)
+        (StructureShape::Sheet, 7, 0)
     );
     let (_, built) = found(&crowd, &of_kind(0, &all[1..]));
     assert_eq!(
         (built[0].shape, built[0].tiles.len(), built[0].holes),
-        (Shape::Ring, 6, 1)
+        (StructureShape::Ring, 6, 1)
     );
 }
 
@@ -204,24 +208,39 @@ fn holes_tails_and_joined_rings_are_counted() {
         (it.shape, it.tiles.len(), it.bonds, it.holes)
     };
     // A hole of one tile, of two tiles, two holes, and a bay, which is none.
-    assert_eq!(of(&cells(4, &[[1, 1]])), (Shape::Sheet, 15, 20, 1));
-    assert_eq!(of(&cells(4, &[[1, 1], [2, 1]])), (Shape::Sheet, 14, 17, 1));
-    assert_eq!(of(&cells(5, &[[1, 1], [3, 3]])), (Shape::Sheet, 23, 32, 2));
-    assert_eq!(of(&cells(4, &[[0, 1]])), (Shape::Sheet, 15, 21, 0));
+    assert_eq!(of(&cells(4, &[[1, 1]])), (StructureShape::Sheet, 15, 20, 1));
+    assert_eq!(
+        of(&cells(4, &[[1, 1], [2, 1]])),
+        (StructureShape::Sheet, 14, 17, 1)
+    );
+    assert_eq!(
+        of(&cells(5, &[[1, 1], [3, 3]])),
+        (StructureShape::Sheet, 23, 32, 2)
+    );
+    assert_eq!(of(&cells(4, &[[0, 1]])), (StructureShape::Sheet, 15, 21, 0));
     // A ring alone, with a tail, and two rings that share a tile.
     let ring = cells(3, &[[1, 1]]);
-    assert_eq!(of(&ring), (Shape::Ring, 8, 8, 1));
+    assert_eq!(of(&ring), (StructureShape::Ring, 8, 8, 1));
     let with = |more: &[[usize; 2]]| [&ring, more].concat();
-    assert_eq!(of(&with(&[[3, 0], [4, 0]])), (Shape::Sheet, 10, 10, 1));
+    assert_eq!(
+        of(&with(&[[3, 0], [4, 0]])),
+        (StructureShape::Sheet, 10, 10, 1)
+    );
     let next = cells(3, &[[1, 1], [0, 0]]);
     let next: Vec<[usize; 2]> = next.iter().map(|[i, j]| [i + 2, j + 2]).collect();
-    assert_eq!(of(&with(&next)), (Shape::Sheet, 15, 16, 2));
+    assert_eq!(of(&with(&next)), (StructureShape::Sheet, 15, 16, 2));
     // Rows are chains, straight or bent.
-    assert_eq!(of(&[[0, 0], [1, 0], [2, 0]]), (Shape::Chain, 3, 2, 0));
-    assert_eq!(of(&[[0, 0], [1, 0], [1, 1]]), (Shape::Chain, 3, 2, 0));
+    assert_eq!(
+        of(&[[0, 0], [1, 0], [2, 0]]),
+        (StructureShape::Chain, 3, 2, 0)
+    );
+    assert_eq!(
+        of(&[[0, 0], [1, 0], [1, 1]]),
+        (StructureShape::Chain, 3, 2, 0)
+    );
     assert_eq!(
         of(&[[0, 1], [1, 1], [2, 1], [1, 0]]),
-        (Shape::Sheet, 4, 3, 0)
+        (StructureShape::Sheet, 4, 3, 0)
     );
 }
 
@@ -256,8 +275,8 @@ fn hexagons_of_two_codes_fit_around_one() {
         crowd.goal = Some(Goal::Pattern(pattern));
         let (counts, built) = found(&crowd, &of_kind(0, &all));
         assert_eq!(counts[..2], [12, 0]);
-        let shapes: Vec<Shape> = built.iter().map(|it| it.shape).collect();
-        assert_eq!(shapes, [Shape::Target, Shape::Sheet]);
+        let shapes: Vec<StructureShape> = built.iter().map(|it| it.shape).collect();
+        assert_eq!(shapes, [StructureShape::Target, StructureShape::Sheet]);
         // One tile turned by a sixth binds nothing, and six are not the pattern.
         let mut turned = all;
         turned[3][2] += FRAC_PI_3;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::built::{Plan, Shaken, Verdict};
+use super::built::{GrowthVerdict, Plan, Shaken};
 use super::choice::Choice;
 use super::kinetic::{Growth, Kinetics};
 use super::matrix::Matrix;
@@ -47,16 +47,16 @@ pub struct Growing {
 
 impl Growing {
     /// Whether the assembly grows at this kT, and without permanent errors.
-    pub fn verdict(&self, built: &Built) -> Verdict {
+    pub fn verdict(&self, built: &Built) -> GrowthVerdict {
         let growth = &self.growth;
         match built.verdict(&self.shaken) {
-            holds @ (Verdict::TauHolds | Verdict::OneHolds) => match () {
+            holds @ (GrowthVerdict::TauHolds | GrowthVerdict::OneHolds) => match () {
                 () if is_right(growth) => holds,
-                () if growth.wrong > 0 => Verdict::ErrorsStay,
-                () => Verdict::Slow,
+                () if growth.wrong > 0 => GrowthVerdict::ErrorsStay,
+                () => GrowthVerdict::Slow,
             },
-            Verdict::TooHard if is_right(growth) => Verdict::MoreHold,
-            Verdict::FewerHold if is_right(growth) => Verdict::FewerSuffice,
+            GrowthVerdict::TooHard if is_right(growth) => GrowthVerdict::MoreHold,
+            GrowthVerdict::FewerHold if is_right(growth) => GrowthVerdict::FewerSuffice,
             other => other,
         }
     }

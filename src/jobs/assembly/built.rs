@@ -75,7 +75,7 @@ pub struct Plan {
 
 /// Whether a tile set grows as it should.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum GrowthVerdict {
     /// No tile attaches to the seed, whatever kT: no bond has strength tau.
     Stuck,
     /// kT is too high: bonds of strength tau do not hold a tile.
@@ -204,18 +204,18 @@ impl Built {
     }
 
     /// Whether the assembly grows at this kT.
-    pub fn verdict(&self, shaken: &Shaken) -> Verdict {
+    pub fn verdict(&self, shaken: &Shaken) -> GrowthVerdict {
         let (gse, gmc, tau) = (shaken.gse, shaken.gmc, self.set.tau());
         let less = self.wiring.least_strength();
         let wrong = self.strongest_wrong();
         let mismatch = wrong.map_or(0.0, |(.., energy)| -energy / shaken.shaking.kt);
         match () {
-            () if self.grown.is_stuck() => Verdict::Stuck,
-            () if gmc > tau * gse => Verdict::TooHard,
-            () if tau > less && gmc < (tau - less) * gse => Verdict::FewerHold,
-            () if mismatch > gmc => Verdict::MismatchHolds,
-            () if tau > less => Verdict::TauHolds,
-            () => Verdict::OneHolds,
+            () if self.grown.is_stuck() => GrowthVerdict::Stuck,
+            () if gmc > tau * gse => GrowthVerdict::TooHard,
+            () if tau > less && gmc < (tau - less) * gse => GrowthVerdict::FewerHold,
+            () if mismatch > gmc => GrowthVerdict::MismatchHolds,
+            () if tau > less => GrowthVerdict::TauHolds,
+            () => GrowthVerdict::OneHolds,
         }
     }
 

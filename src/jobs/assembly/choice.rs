@@ -20,7 +20,7 @@ use physics::words::{Bar, Constraints, Effort, Lags, Task, Word, local};
 
 /// Whether there is a set of words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum WordsVerdict {
     /// A set was found.
     Found,
     /// It is proved that there is none.
@@ -37,7 +37,7 @@ pub struct Choice {
     /// The requested gap, or the widest one reached.
     pub gap: f64,
     /// Whether there are such words.
-    pub verdict: Verdict,
+    pub verdict: WordsVerdict,
     /// The words found, strongest first.
     pub words: Vec<Word>,
     /// The results for each strength, strongest first.
@@ -181,14 +181,14 @@ pub fn choose(
         let contacts = (low + high) / 2;
         let choice = trial(1.0 - (contacts as f64 + 0.5) / unit as f64, count);
         match choice.verdict {
-            Verdict::Found => high = contacts,
+            WordsVerdict::Found => high = contacts,
             _ => low = contacts + 1,
         }
         trials.push(choice);
     }
     // The set with the widest gap, otherwise the failed trial with the narrowest one.
     let last = |choice: &Choice| match choice.verdict {
-        Verdict::Found => (true, choice.gap),
+        WordsVerdict::Found => (true, choice.gap),
         _ => (false, -choice.gap),
     };
     trials.order_by(|a, b| {
@@ -212,9 +212,9 @@ fn widest(asked: &Requirements, class: Class) -> Choice {
         places: asked.places,
         gap: found.gap,
         verdict: match (found.words.len() == class.needed, found.proved) {
-            (true, _) => Verdict::Found,
-            (false, true) => Verdict::Refuted,
-            (false, false) => Verdict::Open,
+            (true, _) => WordsVerdict::Found,
+            (false, true) => WordsVerdict::Refuted,
+            (false, false) => WordsVerdict::Open,
         },
         classes: vec![Class {
             found: known,
@@ -260,9 +260,9 @@ pub fn shortest(
         let choices = choose((demand, groups), places, bar, &request);
         let verdict = choices.last().map(|it| it.verdict);
         tried.insert(places, choices);
-        let is_found = |it: &&Choice| it.verdict == Verdict::Found;
+        let is_found = |it: &&Choice| it.verdict == WordsVerdict::Found;
         let refuted = tried.values().flatten();
-        let refuted = refuted.filter(|it| it.verdict == Verdict::Refuted);
+        let refuted = refuted.filter(|it| it.verdict == WordsVerdict::Refuted);
         observer.known(&match tried.values().flatten().find(is_found) {
             Some(known) => format!(
                 "words are known on faces of {0} positions, and shorter ones are being tried; \
@@ -284,15 +284,15 @@ pub fn shortest(
     let mut best = None;
     for places in first..=most {
         match attempt(places, QUICK) {
-            Some(Verdict::Found) => {
+            Some(WordsVerdict::Found) => {
                 best = Some(places);
                 break;
             }
-            Some(Verdict::Open) => open.push(places),
+            Some(WordsVerdict::Open) => open.push(places),
             _ => {}
         }
     }
-    let mut carries = |places: &usize| attempt(*places, 1.0) == Some(Verdict::Found);
+    let mut carries = |places: &usize| attempt(*places, 1.0) == Some(WordsVerdict::Found);
     match best {
         Some(_) => {
             let shorter = open.into_iter().rev();
@@ -309,7 +309,7 @@ fn at_gap(asked: &Requirements, gap: f64, effort: &mut Effort) -> Choice {
     let mut choice = Choice {
         places: asked.places,
         gap,
-        verdict: Verdict::Found,
+        verdict: WordsVerdict::Found,
         words: Vec::new(),
         classes: asked.classes(),
         widest: false,
@@ -325,7 +325,7 @@ fn at_gap(asked: &Requirements, gap: f64, effort: &mut Effort) -> Choice {
     for group in asked.groups {
         let found = linked(asked, group, &choice.words, &limit, effort);
         if found.len() < group.bonds.len() {
-            choice.verdict = Verdict::Open;
+            choice.verdict = WordsVerdict::Open;
             return choice;
         }
         for word in &found {
@@ -368,8 +368,8 @@ fn at_gap(asked: &Requirements, gap: f64, effort: &mut Effort) -> Choice {
             }
             let refuted = choice.classes.iter().any(|it| it.upper < it.needed);
             choice.verdict = match refuted {
-                true => Verdict::Refuted,
-                false => Verdict::Open,
+                true => WordsVerdict::Refuted,
+                false => WordsVerdict::Open,
             };
             break;
         }

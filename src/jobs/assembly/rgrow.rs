@@ -9,7 +9,7 @@
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
-use super::yaml::{FORM, Node, Source};
+use super::yaml::{FORM, Node, TextSource};
 use super::{ENERGIES, MOST, SHARES, STRENGTHS, TileSet, TileType, in_range};
 use crate::design::{DesignError, nearest_help};
 
@@ -20,7 +20,7 @@ const HALVES: &str = "write the two halves as tiles that share a strong glue";
 /// # Errors
 /// If the text is not a valid set.
 pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
-    let source = Source { text, file };
+    let source = TextSource { text, file };
     let mut parts = Parts::default();
     parts.gather(source, &source.tree()?, &MORE)?;
     parts.set(source)
@@ -100,7 +100,12 @@ const NUMBERS: [[&str; 2]; 3] = [["tau", "threshold"], ["gse", "Gse"], ["gmc", "
 
 impl Parts {
     /// Collects the entries of a mapping and of those under `more` keys, which take precedence.
-    fn gather(&mut self, source: Source, node: &Node, more: &[&str]) -> Result<(), DesignError> {
+    fn gather(
+        &mut self,
+        source: TextSource,
+        node: &Node,
+        more: &[&str],
+    ) -> Result<(), DesignError> {
         let entries = source.entries(node, "a tile set")?;
         for names in NUMBERS {
             let mut both = entries.iter().filter(|entry| names.contains(&entry.1));
@@ -146,7 +151,7 @@ impl Parts {
 
     /// Ignores keys that only control the engine; a canvas that cannot be a table, and a model
     /// without squares, are faults.
-    fn steer(&mut self, source: Source, name: &str, value: &Node) -> Result<(), DesignError> {
+    fn steer(&mut self, source: TextSource, name: &str, value: &Node) -> Result<(), DesignError> {
         let text = value.text().unwrap_or_default();
         let low = text.to_lowercase();
         match name {
@@ -168,7 +173,7 @@ impl Parts {
         Ok(())
     }
 
-    fn set(self, source: Source) -> Result<TileSet, DesignError> {
+    fn set(self, source: TextSource) -> Result<TileSet, DesignError> {
         let [tau, gse, gmc] = self.numbers;
         let mut set = TileSet {
             size: self.size.map(|node| size(source, &node)).transpose()?,
@@ -211,17 +216,17 @@ impl Parts {
     }
 }
 
-fn unknown(source: Source, key: &Node, name: &str, known: &[&str]) -> DesignError {
+fn unknown(source: TextSource, key: &Node, name: &str, known: &[&str]) -> DesignError {
     let message = format!("unknown key `{name}`");
     source.wrong(key, message, &nearest_help(name, known))
 }
 
-fn list<'n>(source: Source, node: &'n Node) -> Result<&'n [Node], DesignError> {
+fn list<'n>(source: TextSource, node: &'n Node) -> Result<&'n [Node], DesignError> {
     let message = "a list is needed here";
     node.list().ok_or_else(|| source.wrong(node, message, FORM))
 }
 
-fn numeral(source: Source, node: &Node) -> Result<f64, DesignError> {
+fn numeral(source: TextSource, node: &Node) -> Result<f64, DesignError> {
     let message = "a finite number is needed here";
     let help = "write it as 1 or 0.5";
     node.number()
@@ -230,7 +235,7 @@ fn numeral(source: Source, node: &Node) -> Result<f64, DesignError> {
 
 /// A number in a range; messages call it `what`.
 fn within(
-    source: Source,
+    source: TextSource,
     node: &Node,
     what: &str,
     range: &RangeInclusive<f64>,
@@ -240,7 +245,7 @@ fn within(
 }
 
 /// A tile's share: 0, or in its range.
-fn share(source: Source, node: &Node) -> Result<f64, DesignError> {
+fn share(source: TextSource, node: &Node) -> Result<f64, DesignError> {
     match numeral(source, node)? {
         0.0 => Ok(0.0),
         _ => within(source, node, "stoic", &SHARES),
@@ -248,7 +253,7 @@ fn share(source: Source, node: &Node) -> Result<f64, DesignError> {
 }
 
 /// A name, or the number of a nameless one.
-fn ident(source: Source, node: &Node) -> Result<String, DesignError> {
+fn ident(source: TextSource, node: &Node) -> Result<String, DesignError> {
     let number = node.whole().map(|number| number.to_string());
     let is_other = node.number().is_some() || node.is_null();
     let name = || node.text().filter(|_| !is_other).map(str::to_owned);
@@ -258,7 +263,7 @@ fn ident(source: Source, node: &Node) -> Result<String, DesignError> {
     found.ok_or_else(|| source.wrong(node, message, help))
 }
 
-fn size(source: Source, node: &Node) -> Result<[usize; 2], DesignError> {
+fn size(source: TextSource, node: &Node) -> Result<[usize; 2], DesignError> {
     let square = node.whole().map(|n| [n, n]);
     let both = || match node.list()? {
         [rows, columns] => Some([rows.whole()?, columns.whole()?]),
@@ -269,7 +274,7 @@ fn size(source: Source, node: &Node) -> Result<[usize; 2], DesignError> {
     found.ok_or_else(|| source.wrong(node, message, "write size: [32, 32]"))
 }
 
-fn bond(source: Source, node: &Node, set: &mut TileSet) -> Result<(), DesignError> {
+fn bond(source: TextSource, node: &Node, set: &mut TileSet) -> Result<(), DesignError> {
     let (mut name, mut strength) = (None, None);
     for (key, word, value) in source.entries(node, "a bond")? {
         match word {
@@ -290,7 +295,7 @@ fn bond(source: Source, node: &Node, set: &mut TileSet) -> Result<(), DesignErro
     Ok(())
 }
 
-fn tile(source: Source, node: &Node, set: &mut TileSet) -> Result<TileType, DesignError> {
+fn tile(source: TextSource, node: &Node, set: &mut TileSet) -> Result<TileType, DesignError> {
     let mut tile = TileType::new((set.tiles.len() + 1).to_string(), [None; 4]);
     let mut edges = None;
     for (key, word, value) in source.entries(node, "a tile")? {
@@ -324,7 +329,7 @@ fn tile(source: Source, node: &Node, set: &mut TileSet) -> Result<TileType, Desi
 }
 
 /// The strength with which two glues bind each other, or one binds itself.
-fn link(source: Source, node: &Node, set: &mut TileSet) -> Result<(), DesignError> {
+fn link(source: TextSource, node: &Node, set: &mut TileSet) -> Result<(), DesignError> {
     let Some([first, second, strength]) = node.list() else {
         let help = "write glues: [[a, b, 0.5]]";
         return Err(source.wrong(node, "two glues and a strength are needed", help));
@@ -348,7 +353,11 @@ fn link(source: Source, node: &Node, set: &mut TileSet) -> Result<(), DesignErro
 }
 
 /// Row, column and tile.
-fn seed(source: Source, node: &Node, set: &TileSet) -> Result<(usize, usize, usize), DesignError> {
+fn seed(
+    source: TextSource,
+    node: &Node,
+    set: &TileSet,
+) -> Result<(usize, usize, usize), DesignError> {
     let read = || {
         let [row, column, tile] = node.list()? else {
             return None;

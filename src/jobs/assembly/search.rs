@@ -1,6 +1,6 @@
 //! The search for the words of an assembly.
 
-use super::choice::{self, Choice, Class, Verdict};
+use super::choice::{self, Choice, Class, WordsVerdict};
 use super::{Request, Wiring};
 use crate::design::Design;
 use crate::word_sets::{self, file};
@@ -50,7 +50,7 @@ impl Request {
             None => choice::shortest(demand, most, &bar, self, observer),
         };
         match tried.last() {
-            Some(last) if last.verdict == Verdict::Found => {
+            Some(last) if last.verdict == WordsVerdict::Found => {
                 let side = face.unwrap_or_else(|| word_sets::side(&bar, last.places));
                 Ok(Sought { bar, side, tried })
             }

@@ -1,7 +1,7 @@
 //! Tests of tile sets: reading returns what was written, and growth follows the definitions.
 
 use super::built::Plan;
-use super::choice::{self, Verdict};
+use super::choice::{self, WordsVerdict};
 use super::growth::{Grown, grow};
 use physics::kinetics::bond::Shaking;
 
@@ -416,7 +416,7 @@ fn words(set: &TileSet, places: usize) -> WordSet {
     let demand = Wiring::new(set).unwrap().demand();
     let tried = choice::choose((&demand, &[]), places, &Bar::paper(), &request);
     let choice = tried.last().unwrap();
-    assert_eq!(choice.verdict, Verdict::Found);
+    assert_eq!(choice.verdict, WordsVerdict::Found);
     let list: Vec<String> = choice
         .words
         .iter()

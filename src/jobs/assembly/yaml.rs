@@ -79,14 +79,14 @@ impl Node {
 
 /// A text with its file's name, for error messages.
 #[derive(Clone, Copy)]
-pub(super) struct Source<'a> {
+pub(super) struct TextSource<'a> {
     /// The whole text.
     pub text: &'a str,
     /// Its name.
     pub file: &'a str,
 }
 
-impl Source<'_> {
+impl TextSource<'_> {
     /// The tree of the text's only document.
     ///
     /// # Errors
@@ -256,13 +256,13 @@ mod tests {
     use super::*;
 
     fn tree(text: &str) -> Result<Node, DesignError> {
-        Source { text, file: "a" }.tree()
+        TextSource { text, file: "a" }.tree()
     }
 
     #[test]
     fn nodes_are_what_they_are_written_as() {
         let text = "a: &n [1, '2', +3, ~, 1e3, -1]\nb: *n\n\"c\": {\"d\":\"\\u00e4\"}";
-        let source = Source { text, file: "a" };
+        let source = TextSource { text, file: "a" };
         let tree = source.tree().unwrap();
         let all = source.entries(&tree, "it").unwrap();
         assert_eq!(
@@ -296,7 +296,7 @@ mod tests {
             assert_eq!((found.line, found.column), place, "{text}: {error}");
         }
         let text = "a: 1\nb: 2\na: 3";
-        let source = Source { text, file: "a" };
+        let source = TextSource { text, file: "a" };
         let error = source.entries(&source.tree().unwrap(), "it").unwrap_err();
         assert!(
             error

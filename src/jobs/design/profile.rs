@@ -10,14 +10,14 @@ use super::svg;
 use physics::tile::profile::{Polyline, Profile, ProfileError, Waveform};
 
 /// A shape: its name, its keys, and the function that reads it for a face of a given length (m).
-type Shape = (
+type ShapeReader = (
     &'static str,
     &'static [&'static str],
     fn(&Section, f64) -> Result<Profile>,
 );
 
 /// The known shapes.
-pub(super) const SHAPES: [Shape; 6] = [
+pub(super) const SHAPES: [ShapeReader; 6] = [
     ("flat", &["shape"], |_, _| Ok(Profile::Flat)),
     ("tab", &["shape", "width", "depth", "draft", "offset"], tab),
     (

@@ -55,5 +55,5 @@ pub use manifest::{Search, Stage};
 pub use rank::{Figures, Standing};
 pub use sensitivity::{Direction, Effect};
 pub use space::{Dimension, Space};
-pub use tried::{Found, SearchError, Tried};
+pub use tried::{SearchError, SearchResult, Tried};
 pub use verdict::Verdict;

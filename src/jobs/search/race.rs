@@ -3,7 +3,7 @@
 use super::manifest::{Search, Stage};
 use super::rank::Standing;
 use super::tried::Tried;
-use crate::sweep::{Outcome, Plan, Point};
+use crate::sweep::{Outcome, Plan, SweepPoint};
 use physics::order::Order;
 
 /// Number of points that are proved at the same time, after the first.
@@ -18,7 +18,7 @@ const BATCH: usize = 4;
 pub fn race<E>(
     search: &Search,
     tried: &mut [Tried],
-    work: &mut impl FnMut(&Plan, &[Point]) -> Result<Result<Vec<Outcome>, usize>, E>,
+    work: &mut impl FnMut(&Plan, &[SweepPoint]) -> Result<Result<Vec<Outcome>, usize>, E>,
 ) -> Result<Result<(), usize>, E> {
     let plan = search.stage(Stage::Proofs);
     if plan.settings == search.stage(Stage::States).settings {
@@ -39,7 +39,7 @@ pub fn race<E>(
             let point = &tried[*k].point;
             plan.point_of(point.index, point.design, point.values.clone())
         };
-        let points: Vec<Point> = next.iter().map(point).collect();
+        let points: Vec<SweepPoint> = next.iter().map(point).collect();
         let outcomes = match work(&plan, &points)? {
             Ok(outcomes) => outcomes,
             Err(missing) => return Ok(Err(missing)),

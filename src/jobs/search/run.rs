@@ -12,8 +12,8 @@ use super::model::Model;
 use super::race;
 use super::rank::{self, Figures, Standing, levels, scores, weighted};
 use super::space::{Place, Space};
-use super::tried::{Found, SearchError, Tried};
-use crate::sweep::{Outcome, Plan, PlanError, Point};
+use super::tried::{SearchError, SearchResult, Tried};
+use crate::sweep::{Outcome, Plan, PlanError, SweepPoint};
 use physics::order::Order;
 
 /// The share of the points that are spread over the space.
@@ -44,11 +44,11 @@ impl Search {
     /// The first error of `work`.
     pub fn run<E>(
         &self,
-        mut work: impl FnMut(&Plan, &[Point]) -> Result<Result<Vec<Outcome>, usize>, E>,
-    ) -> Result<Result<Found, SearchError>, E> {
+        mut work: impl FnMut(&Plan, &[SweepPoint]) -> Result<Result<Vec<Outcome>, usize>, E>,
+    ) -> Result<Result<SearchResult, SearchError>, E> {
         let mut course = Course::new(self);
         while let Some(round) = course.next() {
-            let points: Vec<Point> = round.iter().map(|(point, _)| point.clone()).collect();
+            let points: Vec<SweepPoint> = round.iter().map(|(point, _)| point.clone()).collect();
             match work(&course.plan, &points)? {
                 Ok(outcomes) => course.take(round, outcomes),
                 Err(missing) => {
@@ -60,7 +60,7 @@ impl Search {
         if course.analysed == 0 {
             return Ok(Err(SearchError::NonePossible(course.none_possible())));
         }
-        let mut found = Found {
+        let mut found = SearchResult {
             tried: course.tried,
         };
         let known = found.tried.len();
@@ -92,7 +92,7 @@ struct Course<'a> {
 }
 
 /// Points that are analysed at the same time, with their places.
-type Round = Vec<(Point, Place)>;
+type Round = Vec<(SweepPoint, Place)>;
 
 impl<'a> Course<'a> {
     fn new(search: &'a Search) -> Self {
@@ -185,7 +185,7 @@ impl<'a> Course<'a> {
         round
     }
 
-    fn admit(&mut self, place: Place) -> Option<(Point, Place)> {
+    fn admit(&mut self, place: Place) -> Option<(SweepPoint, Place)> {
         if !self.known.insert(place.clone()) {
             // Counted, so that a search among few possible designs ends.
             self.refused += 1;
@@ -373,7 +373,7 @@ impl<'a> Course<'a> {
             return Vec::new();
         }
         self.is_crossed = true;
-        let found = Found {
+        let found = SearchResult {
             tried: std::mem::take(&mut self.tried),
         };
         let mut matter = found.that_matter(self.search);

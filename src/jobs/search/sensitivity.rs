@@ -2,7 +2,7 @@
 
 use super::manifest::Search;
 use super::space::{Place, Space};
-use super::tried::Found;
+use super::tried::SearchResult;
 
 /// The relative change of the objective by a step below which the step does not matter.
 const FLAT: f64 = 0.01;
@@ -54,7 +54,7 @@ fn is_flat(mut changes: impl Iterator<Item = f64>) -> bool {
 
 /// The tried points about the best.
 struct About<'a> {
-    found: &'a Found,
+    found: &'a SearchResult,
     space: Space,
     /// The objective of each point that is fit.
     values: Vec<Option<f64>>,
@@ -64,7 +64,7 @@ struct About<'a> {
 
 impl<'a> About<'a> {
     /// `None` with two objectives, and if nothing is fit.
-    fn best(found: &'a Found, search: &Search) -> Option<Self> {
+    fn best(found: &'a SearchResult, search: &Search) -> Option<Self> {
         let [_] = &search.aim.objectives[..] else {
             return None;
         };
@@ -181,7 +181,7 @@ impl<'a> About<'a> {
     }
 }
 
-impl Found {
+impl SearchResult {
     /// What each number does about the best point, and each end of a range at which it is.
     pub fn effects(&self, search: &Search) -> Vec<Effect> {
         let Some(about) = About::best(self, search) else {

@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::comparison::{self, Assessment, Bond, Trap, Way};
-use crate::sweep::{Axis, DesignSource, Outcome, Plan, PlanError, Point};
+use crate::sweep::{Axis, DesignSource, Outcome, Plan, PlanError, SweepPoint};
 use physics::landscape::SaddleBounds;
 
 fn source() -> DesignSource {
@@ -57,13 +57,13 @@ fn design(bond: f64, trap: f64, captured: usize) -> Assessment {
 }
 
 /// Searches with a function of the varied numbers instead of analyses; also the number of proofs.
-fn found(search: &Search, of: impl Fn(&[f64]) -> Assessment) -> (Found, usize) {
+fn found(search: &Search, of: impl Fn(&[f64]) -> Assessment) -> (SearchResult, usize) {
     let mut proofs = 0;
-    let work = |plan: &Plan, points: &[Point]| {
+    let work = |plan: &Plan, points: &[SweepPoint]| {
         if plan.settings.complete_cells != Some(0) {
             proofs += points.len();
         }
-        let outcome = |point: &Point| {
+        let outcome = |point: &SweepPoint| {
             let numbers: Vec<f64> = point
                 .values
                 .iter()
@@ -257,7 +257,7 @@ fn listed_values_and_designs_are_all_tried_if_there_are_few() {
 fn a_search_without_a_possible_design_says_the_first_reason() {
     let aim = aim(&["bond_depth"], &[], 4);
     let search = search(&["magnet.pitch=0.0001:0.001"], aim);
-    let none = |_: &Plan, _: &[Point]| -> Result<Result<Vec<Outcome>, usize>, Infallible> {
+    let none = |_: &Plan, _: &[SweepPoint]| -> Result<Result<Vec<Outcome>, usize>, Infallible> {
         panic!("nothing to analyse")
     };
     let Ok(Err(SearchError::NonePossible(PlanError::NonePossible(tried, reason)))) =
@@ -297,7 +297,7 @@ fn only_points_that_may_still_be_best_are_proved() {
     let barriers = [0.010, 0.020, 0.030, 0.046, 0.050];
     let barrier = |depth: f64| barriers[(100.0 * depth).round() as usize - 1];
     let mut proved = Vec::new();
-    let work = |plan: &Plan, points: &[Point]| {
+    let work = |plan: &Plan, points: &[SweepPoint]| {
         let is_proof = plan.settings.complete_cells != Some(0);
         let outcomes = points.iter().map(|point| {
             let barrier = barrier(point.values[0].number().unwrap());

@@ -1,13 +1,13 @@
 //! The points that a search tried.
 
 use super::space::Place;
-use crate::sweep::{Outcome, PlanError, Point};
+use crate::sweep::{Outcome, PlanError, SweepPoint};
 
 /// A point that was tried.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tried {
     /// As analysed without proofs.
-    pub point: Point,
+    pub point: SweepPoint,
     /// Its place in the space.
     pub place: Place,
     /// What came of it without proofs.
@@ -33,7 +33,7 @@ impl Tried {
 
 /// A finished search.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct SearchResult {
     /// All points that were tried, in order.
     pub tried: Vec<Tried>,
 }

@@ -3,7 +3,7 @@
 use super::interval::Interval;
 use super::manifest::Search;
 use super::rank::{Standing, levels};
-use super::tried::Found;
+use super::tried::SearchResult;
 use crate::sweep::Outcome;
 use physics::order::Order;
 
@@ -35,7 +35,7 @@ impl Verdict {
     }
 }
 
-impl Found {
+impl SearchResult {
     /// How each point stands.
     pub fn standings(&self, search: &Search) -> Vec<Standing> {
         let all = self.tried.iter();

@@ -1,7 +1,7 @@
 //! Sweeps: keys of a design are varied, and every resulting design is assessed.
 //!
 //! A [`Plan`] contains all inputs of a sweep: the text of the designs, the varied keys with their
-//! values, the settings and the seed. Each of its [`Point`]s is a design of its own. A point's name
+//! values, the settings and the seed. Each of its [`SweepPoint`]s is a design of its own. A point's name
 //! is a hash of the design as assessed, with its drawings, of the settings, of the seed and of the
 //! version of tilebind. So a point's result does not depend on the other points, or on when and
 //! where it is computed. [`Request::refined`] adds points where the curves bend.
@@ -69,7 +69,7 @@ mod vary;
 pub use crate::request::Shard;
 pub use error::PlanError;
 pub use plan::Plan;
-pub use point::Point;
+pub use point::SweepPoint;
 pub use request::Request;
 pub use run::run;
 pub use source::DesignSource;

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use toml::Table;
 
 use super::error::{MOST_POINTS, PlanError};
-use super::point::Point;
+use super::point::SweepPoint;
 use super::source::DesignSource;
 use super::vary::{Axis, Value, number};
 use super::{document, drawings};
@@ -118,9 +118,9 @@ impl Plan {
     }
 
     /// The index of the baseline point, if one is named.
-    pub fn baseline_of(&self, points: &[Point]) -> Option<usize> {
+    pub fn baseline_of(&self, points: &[SweepPoint]) -> Option<usize> {
         let parts: Vec<&str> = self.baseline.as_ref()?.split(',').map(str::trim).collect();
-        let is_meant = |point: &&Point| {
+        let is_meant = |point: &&SweepPoint| {
             parts.iter().all(|part| match part.split_once('=') {
                 None => self.designs[point.design].name == *part,
                 Some((key, value)) => self.axes.iter().zip(&point.values).any(|(axis, own)| {
@@ -242,13 +242,13 @@ impl Plan {
     }
 
     /// All points, in order.
-    pub fn points(&self) -> Vec<Point> {
+    pub fn points(&self) -> Vec<SweepPoint> {
         self.each(|point| point)
     }
 
     /// Applies a function to each point, in order, without storing the points: a million of them
     /// would take gigabytes.
-    pub fn each<T: Send>(&self, of: impl Fn(Point) -> T + Sync) -> Vec<T> {
+    pub fn each<T: Send>(&self, of: impl Fn(SweepPoint) -> T + Sync) -> Vec<T> {
         let documents: Vec<Table> = self.designs.iter().map(DesignSource::document).collect();
         let settings = self.named_settings();
         parallel::map(0..self.count(), |index| {
@@ -256,7 +256,7 @@ impl Plan {
         })
     }
 
-    fn point(&self, documents: &[Table], settings: &str, index: usize) -> Point {
+    fn point(&self, documents: &[Table], settings: &str, index: usize) -> SweepPoint {
         let grid = self.grid();
         let (design, mut place) = (index / grid, index % grid);
         let mut values: Vec<Value> = Vec::with_capacity(self.axes.len());
@@ -269,7 +269,7 @@ impl Plan {
     }
 
     /// A point with given values, one for each axis.
-    pub fn point_of(&self, index: usize, design: usize, values: Vec<Value>) -> Point {
+    pub fn point_of(&self, index: usize, design: usize, values: Vec<Value>) -> SweepPoint {
         let document = self.designs[design].document();
         self.with(&document, &self.named_settings(), (index, design, values))
     }
@@ -284,7 +284,7 @@ impl Plan {
         document: &Table,
         settings: &str,
         (index, design, values): (usize, usize, Vec<Value>),
-    ) -> Point {
+    ) -> SweepPoint {
         let mut document = document.clone();
         let mut set = self.axes.iter().zip(&values);
         let text = set
@@ -295,7 +295,7 @@ impl Plan {
         let drawings = drawings.filter_map(|name| held.get_key_value(name));
         let named = text.as_ref().unwrap_or_else(|reason| reason);
         let name = self.name(settings, named, drawings);
-        Point {
+        SweepPoint {
             index,
             name,
             design,
@@ -323,7 +323,7 @@ impl Plan {
     }
 
     /// The design of a point, or why it is impossible.
-    pub fn design(&self, point: &Point) -> Result<Design, String> {
+    pub fn design(&self, point: &SweepPoint) -> Result<Design, String> {
         let source = &self.designs[point.design];
         let text = point.text.as_ref().map_err(Clone::clone)?;
         source.parse(text).map_err(|error| error.sentence())

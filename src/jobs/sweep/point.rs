@@ -4,7 +4,7 @@ use super::vary::Value;
 
 /// One design of a sweep.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
+pub struct SweepPoint {
     /// Index in the sweep, from 0.
     pub index: usize,
     /// Hash of the design, the settings, the seed and the version.
@@ -17,7 +17,7 @@ pub struct Point {
     pub(super) text: Result<String, String>,
 }
 
-impl Point {
+impl SweepPoint {
     /// The design's text with the values set, if they can be set.
     pub fn text(&self) -> Option<&str> {
         self.text.as_deref().ok()

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::plan::Plan;
-use super::point::Point;
+use super::point::SweepPoint;
 use super::store::Outcome;
 use crate::comparison;
 use physics::interruption;
@@ -20,12 +20,12 @@ use physics::observer::Silent;
 /// The first error of `finished`, after which no further point is started.
 pub fn run<E: Send>(
     plan: &Plan,
-    points: &[Point],
+    points: &[SweepPoint],
     threads: usize,
-    finished: impl Fn(&Point, &Outcome) -> Result<(), E> + Sync,
+    finished: impl Fn(&SweepPoint, &Outcome) -> Result<(), E> + Sync,
 ) -> Result<(), E> {
     let mut names = HashSet::new();
-    let points: Vec<&Point> = points.iter().filter(|p| names.insert(&p.name)).collect();
+    let points: Vec<&SweepPoint> = points.iter().filter(|p| names.insert(&p.name)).collect();
     let workers = threads.clamp(1, points.len().max(1));
     let next = AtomicUsize::new(0);
     let stopped = AtomicBool::new(false);
@@ -65,7 +65,7 @@ pub fn run<E: Send>(
 }
 
 /// The outcome of a point; `None` if the work was interrupted.
-fn outcome(plan: &Plan, point: &Point) -> Option<Outcome> {
+fn outcome(plan: &Plan, point: &SweepPoint) -> Option<Outcome> {
     let assessed = catch_unwind(AssertUnwindSafe(|| {
         let design = plan.design(point)?;
         Ok(comparison::assess(

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::plan::Plan;
-use super::point::Point;
+use super::point::SweepPoint;
 use crate::checksum::sha256;
 use crate::comparison::Assessment;
 use crate::output::{self, OutputError};
@@ -48,7 +48,7 @@ struct Record {
 }
 
 impl Record {
-    fn new(point: &Point, outcome: Outcome) -> io::Result<Self> {
+    fn new(point: &SweepPoint, outcome: Outcome) -> io::Result<Self> {
         Ok(Self {
             tilebind: env!("CARGO_PKG_VERSION").to_owned(),
             point: point.name.clone(),
@@ -58,7 +58,7 @@ impl Record {
     }
 
     /// The outcome, if the record is valid for this version and point.
-    fn outcome_of(self, point: &Point) -> Option<Outcome> {
+    fn outcome_of(self, point: &SweepPoint) -> Option<Outcome> {
         let sound = Self::new(point, self.outcome).ok()?;
         let found = (self.tilebind, self.point, self.sha256);
         (found == (sound.tilebind, sound.point, sound.sha256)).then_some(sound.outcome)
@@ -125,13 +125,13 @@ impl Store {
         }
     }
 
-    fn path(&self, point: &Point) -> PathBuf {
+    fn path(&self, point: &SweepPoint) -> PathBuf {
         self.folder.join(name(point))
     }
 
     /// The outcome of a point; `None` if there is none, or if its file is damaged or of another
     /// version.
-    pub fn load(&self, point: &Point) -> Option<Outcome> {
+    pub fn load(&self, point: &SweepPoint) -> Option<Outcome> {
         let text = text::read(&self.path(point)).ok()?;
         let record: Record = serde_json::from_str(&text).ok()?;
         record.outcome_of(point)
@@ -141,7 +141,7 @@ impl Store {
     ///
     /// # Errors
     /// If the file system reports an error.
-    pub fn save(&self, point: &Point, outcome: &Outcome) -> Result<(), OutputError> {
+    pub fn save(&self, point: &SweepPoint, outcome: &Outcome) -> Result<(), OutputError> {
         let record = Record::new(point, outcome.clone());
         let record = record.and_then(|record| Ok(serde_json::to_vec_pretty(&record)?));
         let content = record.map_err(|source| OutputError::File {
@@ -162,6 +162,6 @@ impl Store {
 
 /// The file of a point, relative to the sweep's folder. The name is a hash of the design and its
 /// settings, so that no other file has it.
-fn name(point: &Point) -> String {
+fn name(point: &SweepPoint) -> String {
     format!("{POINTS}/{}.json", point.name)
 }

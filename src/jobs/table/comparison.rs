@@ -1,7 +1,7 @@
 //! The predictions of other commands: of `tilebind bond` and `tilebind yield` for the same number of
 //! tiles, of `tilebind assemble` for the same tile set.
 
-use super::{About, Found, Request};
+use super::{About, Request, TableResult};
 use crate::assembly::kinetic::Growth;
 use crate::design::Design;
 use crate::request::of_keywords;
@@ -13,7 +13,7 @@ const ENOUGH: usize = 100;
 
 /// The corresponding request of `yield`: the same number of pairs, table area, time, drag,
 /// restitution and friction. The scarcer kind of tile determines the number of pairs.
-fn question(design: &Design, request: &Request, found: &Found) -> Option<yields::Request> {
+fn question(design: &Design, request: &Request, found: &TableResult) -> Option<yields::Request> {
     let kinds = found.ensemble.kinds();
     let count = |kind: usize| kinds.iter().filter(|it| **it == kind).count();
     let kinds_are_one = found.crowd.kinds.len() == 1;
@@ -59,7 +59,7 @@ pub enum Prediction {
 pub fn compared(
     (about, designs): (&About, &[Design]),
     request: &Request,
-    found: &Found,
+    found: &TableResult,
     progress: &dyn Observer,
 ) -> Option<Result<Prediction, YieldError>> {
     if !request.compare {

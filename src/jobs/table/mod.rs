@@ -19,7 +19,7 @@ pub use ensemble::{Ensemble, PART};
 pub use goal::Wanted;
 pub use request::Request;
 pub use start_file::{StartFileError, read as read_start};
-pub use statistics::{Built, Interval, Lifetime, Moment, Statistics, Verdict};
+pub use statistics::{Built, EndOfTable, Interval, Lifetime, Moment, Statistics};
 pub use subject::About;
 pub use target::Target;
 pub use workload::Workload;
@@ -35,7 +35,7 @@ use physics::table::run::{Run, RunError, Start, watched};
 use physics::table::{Crowd, usual_step};
 
 /// The result of a table.
-pub struct Found {
+pub struct TableResult {
     /// The tiles and their interactions.
     pub crowd: Crowd,
     /// All runs, of which these may be a part.
@@ -86,7 +86,7 @@ pub fn table(
     start: Start,
     parts: &[(String, String)],
     progress: &dyn Observer,
-) -> Result<Found, TableError> {
+) -> Result<TableResult, TableError> {
     let clock = Instant::now();
     let workload = Workload::of(request, usual_step(&crowd), &start);
     workload.check().map_err(TableError::Memory)?;
@@ -95,7 +95,7 @@ pub fn table(
         true => simulated(&ensemble, &crowd, &request.made(), progress)?,
         false => ensemble.merge(&crowd, parts).map_err(TableError::Parts)?,
     };
-    Ok(Found {
+    Ok(TableResult {
         target: Target::of(about, (&crowd, &ensemble.kinds()), &runs),
         statistics: Statistics::of(&runs, &ensemble.settings),
         wall_s: clock.elapsed().as_secs_f64(),

@@ -7,7 +7,7 @@ use physics::order::Order;
 use physics::table::TableSettings;
 use physics::table::contacts::Tie;
 use physics::table::run::{Life, Run};
-use physics::table::structures::{Shape, Structure};
+use physics::table::structures::{Structure, StructureShape};
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -90,7 +90,7 @@ fn rare(counts: &[usize]) -> [f64; 2] {
 
 /// The state of a table at the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum EndOfTable {
     /// Its kinetic energy corresponds to kT.
     Thermal,
     /// It has less, or nothing drives it.
@@ -99,7 +99,7 @@ pub enum Verdict {
     Driven,
 }
 
-impl Verdict {
+impl EndOfTable {
     /// Its name in outputs.
     pub fn name(self) -> &'static str {
         match self {
@@ -136,7 +136,7 @@ pub struct Lifetime {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Built {
     /// The kind.
-    pub shape: Shape,
+    pub shape: StructureShape,
     /// The number of tiles.
     pub size: usize,
     /// How many there are in a run.
@@ -184,7 +184,7 @@ pub struct Statistics {
     /// Statistical error of the kinetic energy of thermal tiles, as a share of it.
     pub kinetic_error: f64,
     /// What the kinetic energy means.
-    pub verdict: Verdict,
+    pub verdict: EndOfTable,
     /// The largest energy error of the runs.
     pub energy_error: f64,
     /// The shortest step of a run (s).
@@ -198,7 +198,7 @@ pub struct Statistics {
 impl Statistics {
     /// Whether the kinetic energy is compatible with kT only because so few samples determine it.
     pub fn is_undecided(&self) -> bool {
-        self.verdict == Verdict::Thermal
+        self.verdict == EndOfTable::Thermal
             && self.kinetic_kt.is_some_and(|share| off(share) > THERMAL)
     }
 
@@ -212,10 +212,10 @@ impl Statistics {
         let kinetic_kt = settings.shaking.map(|kt| kinetic / kt);
         let kinetic_error = chance(runs, settings);
         let verdict = match kinetic_kt {
-            Some(share) if off(share) <= THERMAL.max(kinetic_error) => Verdict::Thermal,
-            Some(share) if share < 0.5 => Verdict::Frozen,
-            None if !settings.is_driven() => Verdict::Frozen,
-            _ => Verdict::Driven,
+            Some(share) if off(share) <= THERMAL.max(kinetic_error) => EndOfTable::Thermal,
+            Some(share) if share < 0.5 => EndOfTable::Frozen,
+            None if !settings.is_driven() => EndOfTable::Frozen,
+            _ => EndOfTable::Driven,
         };
         Self {
             bonds: at_end(Tie::Bond),
@@ -289,14 +289,14 @@ fn tiles_of(runs: &[Run]) -> usize {
 
 fn structures(runs: &[Run]) -> Vec<Built> {
     let tiles = tiles_of(runs);
-    let mut found: BTreeMap<(Shape, usize), Vec<(usize, &Structure)>> = BTreeMap::new();
+    let mut found: BTreeMap<(StructureShape, usize), Vec<(usize, &Structure)>> = BTreeMap::new();
     for (number, run) in runs.iter().enumerate() {
         for it in run.samples.last().into_iter().flat_map(|it| &it.structures) {
             let of_kind = found.entry((it.shape, it.tiles.len())).or_default();
             of_kind.push((number, it));
         }
     }
-    let built = |((shape, size), all): ((Shape, usize), Vec<(usize, &Structure)>)| {
+    let built = |((shape, size), all): ((StructureShape, usize), Vec<(usize, &Structure)>)| {
         let in_run = |run: usize| all.iter().filter(|it| it.0 == run).count();
         let counts: Vec<usize> = (0..runs.len()).map(in_run).collect();
         let mean = |of: fn(&Structure) -> f64| {
@@ -367,7 +367,7 @@ fn lifetime(runs: &[Run], tie: Tie) -> Lifetime {
 /// The number of tiles in structures that are the goal.
 pub(super) fn in_target(sample: &physics::table::Sample) -> usize {
     let targets = sample.structures.iter();
-    let targets = targets.filter(|it| it.shape == Shape::Target);
+    let targets = targets.filter(|it| it.shape == StructureShape::Target);
     targets.map(|it| it.tiles.len()).sum()
 }
 

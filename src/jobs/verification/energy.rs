@@ -63,12 +63,12 @@ struct ShieldedMagnet {
 
 /// A straight motion from one pose to another, the shorter way round.
 #[derive(Clone, Copy)]
-pub(super) struct Motion {
+pub(super) struct StraightMotion {
     from: Pose,
     to: Pose,
 }
 
-impl Motion {
+impl StraightMotion {
     pub fn new(from: Pose, to: Pose) -> Self {
         let turn = to[2] - from[2];
         let turn = turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round();
@@ -426,7 +426,7 @@ impl Magnets {
 
     /// The least second derivative (J) of the energy along a motion over a part of it; minus infinity
     /// where none is known.
-    pub fn least_bend(&self, motion: &Motion, part: Interval) -> f64 {
+    pub fn least_bend(&self, motion: &StraightMotion, part: Interval) -> f64 {
         if !self.has_bounds() {
             return f64::NEG_INFINITY;
         }
@@ -448,7 +448,7 @@ impl Magnets {
     ///
     /// of a magnet that moves at the speed v, turns by w and is accelerated by a, all for each whole motion.
     /// Bodies are made of elements that are as near as `r` without their radii.
-    pub fn most_bend(&self, motion: &Motion, part: Interval) -> Option<f64> {
+    pub fn most_bend(&self, motion: &StraightMotion, part: Interval) -> Option<f64> {
         let all = || self.fixed.iter().chain(&self.moving);
         if !self.has_bounds() || all().any(|it| it.shield.is_some()) {
             return None;
@@ -482,7 +482,7 @@ impl Magnets {
         Some(MU0_OVER_4PI * sum * (1.0 + 1e-9))
     }
 
-    fn along(&self, motion: &Motion, t: Interval) -> Jet {
+    fn along(&self, motion: &StraightMotion, t: Interval) -> Jet {
         let [x, y, theta] = motion.along(t);
         let turn = theta.sine_and_cosine();
         let still = [Jet::of(0.0), Jet::of(1.0)];

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::checks::{Book, Subject};
 use super::distance::{self, Rim, clearance};
-use super::energy::{Magnets, Model, Motion, TOUCH};
-use super::given::{Barrier, Given, Place, Point, Pose, Report, Share, Tiles};
+use super::energy::{Magnets, Model, StraightMotion, TOUCH};
+use super::given::{Barrier, Given, GivenPoint, Place, Pose, Report, Share, Tiles};
 use super::interval::Interval;
 use physics::parallel;
 
@@ -324,7 +324,7 @@ impl Folder<'_> {
     fn pathway(
         &self,
         name: &str,
-        points: &[Point],
+        points: &[GivenPoint],
         limit: Option<f64>,
         book: &mut Book,
     ) -> Option<f64> {
@@ -346,7 +346,7 @@ impl Folder<'_> {
         }
         let last = points.last().map_or(0.0, |last| last.s);
         for pair in points.windows(2) {
-            let half = Motion::new(pair[0].pose(), pair[1].pose()).at(0.5);
+            let half = StraightMotion::new(pair[0].pose(), pair[1].pose()).at(0.5);
             let clearance = self.clearance(half);
             // Points of the file are rounded, and those left out lie within 1e-8 of the extent.
             let overlap = self.allowed.overlap + 0.02 * self.allowed.place;
@@ -400,12 +400,12 @@ impl Folder<'_> {
     }
 
     /// Whether a pathway stays below a limit (J) over whole segments.
-    fn upper(&self, name: &str, points: &[Point], own: &[f64], limit: f64, book: &mut Book) {
+    fn upper(&self, name: &str, points: &[GivenPoint], own: &[f64], limit: f64, book: &mut Book) {
         let limit = limit + self.allowed.upper + 1e-6 * limit.abs();
         let mut is_open = false;
         let mut left = MOST_PARTS[1];
         for (pair, ends) in points.windows(2).zip(own.windows(2)) {
-            let motion = Motion::new(pair[0].pose(), pair[1].pose());
+            let motion = StraightMotion::new(pair[0].pose(), pair[1].pose());
             match self.segment(&motion, [ends[0], ends[1]], limit, &mut left) {
                 Segment::Below => {}
                 Segment::Open => is_open = true,
@@ -430,7 +430,13 @@ impl Folder<'_> {
     /// Whether the energy stays below a limit on a straight motion, given that at its ends. Between two
     /// points `h` apart a function exceeds the higher by no more than `h^2 / 8` times its largest bend
     /// downwards.
-    fn segment(&self, motion: &Motion, ends: [f64; 2], limit: f64, left: &mut usize) -> Segment {
+    fn segment(
+        &self,
+        motion: &StraightMotion,
+        ends: [f64; 2],
+        limit: f64,
+        left: &mut usize,
+    ) -> Segment {
         let Some(magnets) = self.magnets else {
             return Segment::Open;
         };
@@ -581,7 +587,7 @@ impl Folder<'_> {
         }
     }
 
-    fn ends(&self, what: &str, ends: [Place; 2], points: &[Point], book: &mut Book) {
+    fn ends(&self, what: &str, ends: [Place; 2], points: &[GivenPoint], book: &mut Book) {
         let states = &self.given.report.states;
         let far = radius(&self.tiles.fixed.outline_m) + radius(&self.tiles.moving.outline_m);
         for (place, point) in ends.into_iter().zip([points.first(), points.last()]) {

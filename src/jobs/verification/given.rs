@@ -177,7 +177,7 @@ pub(super) struct Alternative {
 
 /// A point of a pathway's file.
 #[derive(Clone, Copy, Debug, Deserialize)]
-pub(super) struct Point {
+pub(super) struct GivenPoint {
     pub s: f64,
     pub x: f64,
     pub y: f64,
@@ -188,7 +188,7 @@ pub(super) struct Point {
     pub clearance: f64,
 }
 
-impl Point {
+impl GivenPoint {
     pub fn pose(&self) -> Pose {
         [self.x, self.y, self.theta]
     }
@@ -197,7 +197,7 @@ impl Point {
 /// A folder's report with its pathways by file, each read or why it cannot be.
 pub(super) struct Given {
     pub report: Report,
-    pub pathways: BTreeMap<String, Result<Vec<Point>, String>>,
+    pub pathways: BTreeMap<String, Result<Vec<GivenPoint>, String>>,
 }
 
 /// Reads a folder.
@@ -230,7 +230,7 @@ pub(super) fn read(folder: &Path) -> Result<Given, String> {
     Ok(Given { report, pathways })
 }
 
-fn pathway(folder: &Path, name: &str) -> Result<Vec<Point>, String> {
+fn pathway(folder: &Path, name: &str) -> Result<Vec<GivenPoint>, String> {
     let is_inside = Path::new(name)
         .components()
         .all(|part| matches!(part, std::path::Component::Normal(_)));
@@ -239,10 +239,10 @@ fn pathway(folder: &Path, name: &str) -> Result<Vec<Point>, String> {
     }
     let text = text::read(&folder.join(name)).map_err(|error| format!("{name}: {error}"))?;
     let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let points: Result<Vec<Point>, _> = reader.deserialize().collect();
+    let points: Result<Vec<GivenPoint>, _> = reader.deserialize().collect();
     let points = points.map_err(|error| format!("{name}: {error}"))?;
-    let is_finite = |it: &Point| {
-        let Point {
+    let is_finite = |it: &GivenPoint| {
+        let GivenPoint {
             s,
             x,
             y,

@@ -17,7 +17,7 @@ mod spaced;
 pub use bar::{bar, least_spacing};
 pub use crosstalk::CrosstalkRequest;
 pub use request::{Request, gap, shape};
-pub use search::Found;
+pub use search::WordsResult;
 pub use spaced::Spaced;
 
 use crate::design::Design;

@@ -9,7 +9,7 @@ use physics::words::continuous::Wanted;
 use physics::words::{Effort, Faces, Lags, PAPER_FACE, Question, Task, answer};
 
 /// The result of a search.
-pub enum Found {
+pub enum WordsResult {
     /// Words with a pitch.
     Even(Box<Sought>),
     /// Words with magnets anywhere along the face.
@@ -24,7 +24,7 @@ impl Request {
     ///
     /// # Errors
     /// If such words cannot exist.
-    pub fn search(&self, design: Option<&Design>) -> Result<Found, Refused> {
+    pub fn search(&self, design: Option<&Design>) -> Result<WordsResult, Refused> {
         let (places, magnets) = self.places()?;
         let (bar, face) = bar(design, self.pitch, self.model)?;
         if self.flip && bar.form.stands.is_some() {
@@ -42,7 +42,7 @@ impl Request {
                 longest_run: self.max_run,
             };
             let spaced = Spaced::search(&wanted, self, effort)?;
-            return Ok(Found::Anywhere(Box::new(spaced)));
+            return Ok(WordsResult::Anywhere(Box::new(spaced)));
         }
         let constraints = self.constraints(&bar, places, magnets)?;
         let energies = Lags::new(&bar, places);
@@ -63,7 +63,7 @@ impl Request {
             rules: self.rules()?,
             constraints,
         };
-        Ok(Found::Even(Box::new(Sought {
+        Ok(WordsResult::Even(Box::new(Sought {
             answer: answer(&task, question, &energies, &mut effort.clone()),
             request: self.clone(),
             design: design.map(|design| design.name.clone()),

@@ -49,7 +49,7 @@ pub struct AttachmentOptions {
     ///
     /// docking: docking runs. overdamped: overdamped motion of both tiles.
     #[arg(long = "rates", value_enum, default_value_t)]
-    pub source: Source,
+    pub source: RateSource,
 
     /// Drag rate (1/s) [default: 0.005 for docking runs, 50 for overdamped motion]
     #[arg(long, value_name = "C", value_parser = request::rate)]
@@ -64,8 +64,8 @@ impl AttachmentOptions {
     /// The name of its progress stage.
     pub fn stage(&self) -> &'static str {
         match self.source {
-            Source::Docking => "docking",
-            Source::Overdamped => "rates",
+            RateSource::Docking => "docking",
+            RateSource::Overdamped => "rates",
         }
     }
 
@@ -73,8 +73,8 @@ impl AttachmentOptions {
     pub fn motion(&self) -> MotionSettings {
         let usual = MotionSettings::default();
         let drag = match self.source {
-            Source::Docking => usual.drag,
-            Source::Overdamped => OVERDAMPED,
+            RateSource::Docking => usual.drag,
+            RateSource::Overdamped => OVERDAMPED,
         };
         MotionSettings {
             drag: self.drag.unwrap_or(drag),
@@ -108,13 +108,13 @@ impl AttachmentOptions {
             ..
         } = self.motion();
         match self.source {
-            Source::Docking => format!(
+            RateSource::Docking => format!(
                 "attachment counted in {}{} docking runs for each kT (drag {drag} per s, restitution \
                  {restitution}, friction {friction})",
                 self.runs,
                 if self.attachments > 0 { " or more" } else { "" }
             ),
-            Source::Overdamped => format!(
+            RateSource::Overdamped => format!(
                 "attachment of overdamped motion, solved on a mesh (drag {drag} per s, \
                  elastic collisions)"
             ),
@@ -124,7 +124,7 @@ impl AttachmentOptions {
 
 /// The source of attachment rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Source {
+pub enum RateSource {
     /// Counted in docking runs of tiles with inertia, lossy contact and drag
     #[default]
     Docking,
@@ -215,7 +215,7 @@ pub(super) fn attached(
     request: &Request,
 ) -> Result<Attachments, YieldError> {
     let (problem, effort) = (&analysis.problem, &request.method);
-    if effort.source == Source::Docking {
+    if effort.source == RateSource::Docking {
         let catalogue = &analysis.catalogue;
         return Ok(count(problem, catalogue, kt, effort, request.seed)?);
     }

@@ -23,7 +23,7 @@ use crate::memory;
 use crate::pipeline;
 use crate::request::{self, Unanswered};
 use attachment::AttachmentOptions;
-pub use attachment::Source;
+pub use attachment::RateSource;
 pub use outcome::{KindRates, Yield};
 use outcome::{outcome, state};
 use physics::dynamics::docking::{DockingError, MOST_REPEATS};
@@ -83,8 +83,8 @@ impl Request {
     pub fn check_memory(&self, threads: usize) -> Result<(), String> {
         match self.method.source {
             // The bond, a few traps and free tiles.
-            Source::Overdamped => memory::check_meshes(5, threads),
-            Source::Docking => Ok(()),
+            RateSource::Overdamped => memory::check_meshes(5, threads),
+            RateSource::Docking => Ok(()),
         }
     }
 }
@@ -98,7 +98,7 @@ pub fn expected(design: &Design, request: &Request) -> Result<Option<f64>, Yield
     let Some(hottest) = kts.iter().copied().reduce(f64::max) else {
         return Ok(None);
     };
-    if effort.source != Source::Docking {
+    if effort.source != RateSource::Docking {
         return Ok(None);
     }
     let runs = effort.runs_at(hottest, request.seed);

@@ -1,7 +1,7 @@
 //! Chains and rings of equal tiles that bind with two faces each.
 
 use super::Request;
-use super::attachment::Source;
+use super::attachment::RateSource;
 use physics::dynamics::docking::stream;
 use physics::dynamics::exits::mean_and_error;
 use physics::kinetics::bond::Hold;
@@ -101,8 +101,8 @@ pub(super) fn rows(
     let mut rng = stream(request.seed, PLAY);
     let spreads = Spreads::sampled(joints, kt, bond.well.level, &mut rng);
     let slowing = match request.method.source {
-        Source::Docking => 0.5,
-        Source::Overdamped => 1.0,
+        RateSource::Docking => 0.5,
+        RateSource::Overdamped => 1.0,
     };
     let growth = |rates| Growth {
         joints,

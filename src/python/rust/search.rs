@@ -9,8 +9,8 @@ use pyo3::types::{PyDict, PyMapping, PyString};
 use tilebind::comparison;
 use tilebind::report::sweep::Searched;
 use tilebind::request::of_keywords;
-use tilebind::search::{Found, Request as Aims, Search as Sought, SearchError};
-use tilebind::sweep::{Axis, Outcome, Plan, Point, run as work_on};
+use tilebind::search::{Request as Aims, Search as Sought, SearchError, SearchResult};
+use tilebind::sweep::{Axis, Outcome, Plan, SweepPoint, run as work_on};
 
 use crate::design::Design;
 use crate::job::Told;
@@ -117,11 +117,11 @@ pub fn search(
 /// Outcomes by the names of points.
 type Known = BTreeMap<String, Outcome>;
 
-fn work(search: &Sought, known: &Mutex<Known>, told: &Told) -> Result<Found, SearchError> {
+fn work(search: &Sought, known: &Mutex<Known>, told: &Told) -> Result<SearchResult, SearchError> {
     let all = || known.lock().unwrap_or_else(PoisonError::into_inner);
     let count = search.aim.points + search.most_proofs();
     told.tell(0.0, format!("{count} analyses"));
-    let found = search.run(|plan: &Plan, points: &[Point]| {
+    let found = search.run(|plan: &Plan, points: &[SweepPoint]| {
         let Ok(()) = work_on(plan, points, job::threads(), |point, outcome| {
             all().insert(point.name.clone(), outcome.clone());
             let done = all().len();
@@ -135,7 +135,7 @@ fn work(search: &Sought, known: &Mutex<Known>, told: &Told) -> Result<Found, Sea
     found
 }
 
-fn outcomes(known: &Known, points: &[Point]) -> Result<Vec<Outcome>, usize> {
+fn outcomes(known: &Known, points: &[SweepPoint]) -> Result<Vec<Outcome>, usize> {
     let found = points.iter().map(|point| known.get(&point.name).cloned());
     found.collect::<Option<Vec<_>>>().ok_or(points.len())
 }
@@ -144,12 +144,16 @@ fn outcomes(known: &Known, points: &[Point]) -> Result<Vec<Outcome>, usize> {
 #[pyclass(frozen, module = "tilebind")]
 pub struct Search {
     search: Sought,
-    found: Found,
+    found: SearchResult,
     known: Known,
 }
 
 impl Search {
-    fn new(search: Sought, found: Result<Found, SearchError>, known: Known) -> PyResult<Self> {
+    fn new(
+        search: Sought,
+        found: Result<SearchResult, SearchError>,
+        known: Known,
+    ) -> PyResult<Self> {
         match found {
             Ok(found) => Ok(Self {
                 search,

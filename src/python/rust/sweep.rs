@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 use tilebind::report::sweep::Sweep as Swept;
-use tilebind::sweep::{Axis, Outcome, Plan, Point, Request, Value, run as work_on};
+use tilebind::sweep::{Axis, Outcome, Plan, Request, SweepPoint, Value, run as work_on};
 
 use crate::design::Design;
 use crate::job::Told;
@@ -16,7 +16,7 @@ use crate::shown::{self, Reduced};
 use crate::{convert, fault, job, pickle, table};
 
 /// The design of a point of a plan.
-pub fn design_of(py: Python<'_>, plan: &Plan, point: &Point) -> PyResult<Design> {
+pub fn design_of(py: Python<'_>, plan: &Plan, point: &SweepPoint) -> PyResult<Design> {
     let mut source = plan.designs[point.design].clone();
     for (axis, value) in plan.axes.iter().zip(&point.values) {
         source = source.with(&axis.key, value.toml()).map_err(fault::value)?;

@@ -10,8 +10,8 @@ use serde_json::{Map, Value, json};
 use super::document::{Document, Drawing, Entries, Table, rows};
 use super::files::{Files, PAGE, REPORT};
 use super::values::positive_zero;
-use jobs::assembly::built::{Shaken, Verdict as Growth};
-use jobs::assembly::choice::{Choice, Verdict};
+use jobs::assembly::built::{GrowthVerdict, Shaken};
+use jobs::assembly::choice::{Choice, WordsVerdict};
 use jobs::assembly::kinetic::Growth as Kinetic;
 use jobs::assembly::slides::{self, Slid};
 use jobs::assembly::wiring::Bond;
@@ -167,17 +167,17 @@ fn growing(assembly: &Assembly, growing: &Growing) -> Entries {
 }
 
 /// The verdict, for programs.
-fn verdict(verdict: Growth) -> &'static str {
+fn verdict(verdict: GrowthVerdict) -> &'static str {
     match verdict {
-        Growth::Stuck => "nothing attaches to the seed",
-        Growth::FewerSuffice => "fewer bonds than tau hold, growths right",
-        Growth::TooHard => "nothing holds",
-        Growth::MoreHold => "more bonds hold",
-        Growth::FewerHold => "fewer bonds than tau hold",
-        Growth::MismatchHolds => "a mismatch holds",
-        Growth::TauHolds | Growth::OneHolds => "right",
-        Growth::ErrorsStay => "errors stay",
-        Growth::Slow => "too slow",
+        GrowthVerdict::Stuck => "nothing attaches to the seed",
+        GrowthVerdict::FewerSuffice => "fewer bonds than tau hold, growths right",
+        GrowthVerdict::TooHard => "nothing holds",
+        GrowthVerdict::MoreHold => "more bonds hold",
+        GrowthVerdict::FewerHold => "fewer bonds than tau hold",
+        GrowthVerdict::MismatchHolds => "a mismatch holds",
+        GrowthVerdict::TauHolds | GrowthVerdict::OneHolds => "right",
+        GrowthVerdict::ErrorsStay => "errors stay",
+        GrowthVerdict::Slow => "too slow",
     }
 }
 
@@ -230,9 +230,9 @@ fn tried(choice: &Choice) -> Value {
         "places": choice.places,
         "gap": choice.gap,
         "verdict": match choice.verdict {
-            Verdict::Found => "found",
-            Verdict::Refuted => "proved impossible",
-            Verdict::Open => "open",
+            WordsVerdict::Found => "found",
+            WordsVerdict::Refuted => "proved impossible",
+            WordsVerdict::Open => "open",
         },
         "words": choice.words.len(),
         "classes": classes.collect::<Value>(),

@@ -1,7 +1,7 @@
 //! The text of an assembly's summary.
 
-use jobs::assembly::built::{MOST_MEETINGS, Shaken, Verdict as Growth};
-use jobs::assembly::choice::{Choice, Verdict};
+use jobs::assembly::built::{GrowthVerdict, MOST_MEETINGS, Shaken};
+use jobs::assembly::choice::{Choice, WordsVerdict};
 use jobs::assembly::kinetic::Growth as Kinetic;
 use jobs::assembly::slides;
 use jobs::assembly::{Assembly, Growing, SIDES, Tau, TileSet, TileType, lattice};
@@ -35,30 +35,32 @@ pub(super) fn headline(assembly: &Assembly) -> String {
     let shaken = &growing.shaken;
     let told;
     let verdict = match growing.verdict(built) {
-        Growth::Stuck => "beside the point: nothing attaches to the seed",
-        Growth::TooHard => {
+        GrowthVerdict::Stuck => "beside the point: nothing attaches to the seed",
+        GrowthVerdict::TooHard => {
             "too hard: bonds of strength tau do not hold a tile, and growth does not end right"
         }
-        Growth::MoreHold => {
+        GrowthVerdict::MoreHold => {
             "hard: bonds of strength tau do not hold a tile, but stronger ones do, and growths end right"
         }
-        Growth::FewerHold => "too soft: fewer bonds than tau also hold, so anything grows",
-        Growth::FewerSuffice => {
+        GrowthVerdict::FewerHold => "too soft: fewer bonds than tau also hold, so anything grows",
+        GrowthVerdict::FewerSuffice => {
             "soft: fewer bonds than tau also hold, but nothing else fits, and growths end right"
         }
-        Growth::MismatchHolds => {
+        GrowthVerdict::MismatchHolds => {
             "too soft: a single aligned mismatch also holds a tile, so errors grow"
         }
-        Growth::TauHolds => "right: bonds of strength tau hold a tile and weaker ones do not",
-        Growth::OneHolds => "right, so one bond holds a tile",
-        Growth::ErrorsStay => {
+        GrowthVerdict::TauHolds => {
+            "right: bonds of strength tau hold a tile and weaker ones do not"
+        }
+        GrowthVerdict::OneHolds => "right, so one bond holds a tile",
+        GrowthVerdict::ErrorsStay => {
             told = format!(
                 "too soft: {} of {} simulated growths end with errors that remain",
                 growing.growth.wrong, growing.growth.runs
             );
             &told
         }
-        Growth::Slow => "too hard: growth does not finish",
+        GrowthVerdict::Slow => "too hard: growth does not finish",
     };
     format!(
         "{what}; at kT = {} and {} coverage Gse (a bond) is {} kT and Gmc (docking) {:.2} kT; \
@@ -392,8 +394,8 @@ fn canvas(assembly: &Assembly, shaken: &Shaken) -> Option<String> {
 /// A note on the search for words, if there was one.
 fn found(assembly: &Assembly) -> Option<String> {
     let (last, before) = assembly.tried.split_last()?;
-    let failed = || before.iter().filter(|it| it.verdict != Verdict::Found);
-    let refuted = |it: &&Choice| it.verdict == Verdict::Refuted;
+    let failed = || before.iter().filter(|it| it.verdict != WordsVerdict::Found);
+    let refuted = |it: &&Choice| it.verdict == WordsVerdict::Refuted;
     let shorter = || failed().filter(|it| it.places != last.places);
     let shorter = match (shorter().count(), shorter().filter(refuted).count()) {
         (0, _) => String::new(),
@@ -406,7 +408,7 @@ fn found(assembly: &Assembly) -> Option<String> {
     // The trials end with the narrowest failed gap and the successful ones.
     let wider = failed().rfind(|it| it.places == last.places);
     let wider = wider.map_or(String::new(), |it| match it.verdict {
-        Verdict::Refuted => format!("; with {:.3} there are none, proved", it.gap),
+        WordsVerdict::Refuted => format!("; with {:.3} there are none, proved", it.gap),
         _ => format!("; with {:.3} none were found", it.gap),
     });
     let wider = match last.widest {

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::landscape::Drawn;
 use super::numbers::rounded;
-use jobs::table::Found;
+use jobs::table::TableResult;
 use physics::table::contacts::{Held, Tie};
 use physics::table::{Mover, Sample};
 
@@ -52,7 +52,7 @@ struct Frame {
 
 impl Crowd {
     /// The animation of the first computed run; it always includes the last frame.
-    pub fn new(found: &Found) -> Self {
+    pub fn new(found: &TableResult) -> Self {
         let crowd = &found.crowd;
         let run = found.runs.first();
         let kept: Vec<(&Sample, &Vec<Mover>)> = run

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::landscape::{Drawn, pose};
 use crate::points::Sweep;
-use jobs::sweep::Point;
+use jobs::sweep::SweepPoint;
 
 /// With more points the page would grow large.
 const MOST_POINTS: usize = 200;
@@ -22,7 +22,7 @@ pub struct Thumbnail {
 
 impl Thumbnail {
     /// `None` if the design is impossible, or there are too many.
-    pub fn of(sweep: &Sweep, point: &Point) -> Option<Self> {
+    pub fn of(sweep: &Sweep, point: &SweepPoint) -> Option<Self> {
         if sweep.points.len() > MOST_POINTS {
             return None;
         }

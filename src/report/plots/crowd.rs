@@ -9,7 +9,7 @@ use super::picture::{PictureError, animated};
 use super::style::{Anchor, FIXED_FILL, INK, LABEL, MOVING_FILL};
 use super::{Drawing, Figure, Sheet};
 use crate::csv;
-use jobs::table::Found;
+use jobs::table::TableResult;
 use physics::table::contacts::Tie;
 use physics::table::{Mover, Sample};
 use physics::units::{counted, duration};
@@ -39,7 +39,7 @@ const STRUCTURES: [(&str, RGBColor); 4] = [
 ];
 
 /// The end of every computed run, in pictures of some runs each.
-pub fn ends(found: &Found) -> Vec<Drawing<'_>> {
+pub fn ends(found: &TableResult) -> Vec<Drawing<'_>> {
     let runs = &found.runs[..found.runs.len().min(MOST)];
     let parts = runs.chunks(TOGETHER).enumerate();
     let drawing = |(number, part): (usize, &'_ [physics::table::Run])| {
@@ -63,7 +63,7 @@ pub fn ends(found: &Found) -> Vec<Drawing<'_>> {
 
 /// One panel for each of these runs.
 fn drawn(
-    found: &Found,
+    found: &TableResult,
     (name, title): (&str, &str),
     indices: &[usize],
     sheet: &Sheet,
@@ -113,7 +113,12 @@ fn drawn(
 }
 
 /// Draws the rim and the tiles in a rectangle of a picture.
-fn table(found: &Found, canvas: &mut Canvas, (movers, sample): (&[Mover], &Sample), inner: Box4) {
+fn table(
+    found: &TableResult,
+    canvas: &mut Canvas,
+    (movers, sample): (&[Mover], &Sample),
+    inner: Box4,
+) {
     let crowd = &found.crowd;
     let half = Vector2::from(crowd.rim.half_size());
     let view = View::filling(inner, [-half, half]);
@@ -155,7 +160,7 @@ fn table(found: &Found, canvas: &mut Canvas, (movers, sample): (&[Mover], &Sampl
 ///
 /// # Errors
 /// See [`PictureError`].
-pub fn film(found: &Found) -> Result<Option<Vec<u8>>, PictureError> {
+pub fn film(found: &TableResult) -> Result<Option<Vec<u8>>, PictureError> {
     let run = found.runs.first();
     let samples = run.iter().flat_map(|run| &run.samples);
     let frames: Vec<(&Sample, &Vec<Mover>)> = samples

@@ -6,7 +6,7 @@ use crate::figures::cell;
 use crate::points::Sweep;
 use jobs::comparison::quantity::{QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, ranking};
-use jobs::sweep::Point;
+use jobs::sweep::SweepPoint;
 use physics::order::Order;
 
 /// Largest number of points in the table.
@@ -105,7 +105,7 @@ impl Sweep<'_> {
             Some((index, value)).filter(|_| value > 0.0)
         });
         let points = self.points.iter();
-        let of = |(_, one): &(&Point, Option<&'a Assessment>)| *one;
+        let of = |(_, one): &(&SweepPoint, Option<&'a Assessment>)| *one;
         let mut table = rows(points.map(|point| (point, self.assessment(point.index)))).shown(
             "point",
             "",

@@ -7,7 +7,7 @@ use crate::assessments::{capture_settings, checked, merge, numbers, quantities};
 use crate::document::{Cell, Document, Entries, Part, Table, rows};
 use crate::page::Charts;
 use crate::points::Sweep;
-use jobs::sweep::{Outcome, Point, Progress};
+use jobs::sweep::{Outcome, Progress, SweepPoint};
 
 /// Largest number of reasons in the summary.
 const REASONS: usize = 5;
@@ -67,7 +67,7 @@ impl Sweep<'_> {
             .table(self.listed())
     }
 
-    pub(super) fn entry(&self, point: &Point) -> Json {
+    pub(super) fn entry(&self, point: &SweepPoint) -> Json {
         let values: Map<String, Json> = self
             .plan
             .axes
@@ -100,14 +100,14 @@ impl Sweep<'_> {
             });
         for (k, axis) in self.plan.axes.iter().enumerate() {
             let is_number = axis.numbers().is_some();
-            let value = move |(point, _): &(&Point, _)| -> Cell {
+            let value = move |(point, _): &(&SweepPoint, _)| -> Cell {
                 let value = &point.values[k];
                 let number = value.number().filter(|_| is_number);
                 number.map_or_else(|| value.to_string().into(), Into::into)
             };
             all = all.data(axis.key.clone(), value);
         }
-        let outcome = |point: &Point| &self.outcomes[point.index];
+        let outcome = |point: &SweepPoint| &self.outcomes[point.index];
         let all = all
             .data("status", |(point, _)| status(outcome(point)))
             .data("reason", |(point, _)| {

@@ -14,7 +14,7 @@ use crate::plots::{Drawing, Figure, PictureError, Sheet};
 use crate::points::{Common, Sweep, Variable};
 use jobs::comparison::quantity::{Measure, NO_TRAPS, QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity};
-use jobs::sweep::Point;
+use jobs::sweep::SweepPoint;
 use ordered_float::OrderedFloat;
 use physics::order::Order;
 use physics::units::to_digits;
@@ -40,7 +40,7 @@ const SIGNS: [&str; 2] = [
 ];
 
 /// A named group of points.
-type Named<'a> = (String, Vec<&'a Point>);
+type Named<'a> = (String, Vec<&'a SweepPoint>);
 
 /// The content of a picture.
 struct Content<'a> {
@@ -179,7 +179,7 @@ impl Content<'_> {
         let rows = series.flat_map(|(name, points)| {
             let mut points = points.clone();
             // Curves from left to right, maps row by row.
-            let place = |it: &Variable, point: &Point| it.value(point).map(OrderedFloat);
+            let place = |it: &Variable, point: &SweepPoint| it.value(point).map(OrderedFloat);
             points.order_by_key(|point| {
                 let places = self.numbers.iter().rev().map(|it| place(it, point));
                 places.collect::<Vec<_>>()
@@ -204,7 +204,7 @@ impl Content<'_> {
     }
 
     /// The text for the point under the pointer.
-    fn describe(&self, point: &Point, quantities: &[&Quantity]) -> Spot {
+    fn describe(&self, point: &SweepPoint, quantities: &[&Quantity]) -> Spot {
         let name = self.sweep.called(point);
         let figure = |one: &Assessment| {
             let shown = quantities.iter().filter(|one| one.panel.is_some());
@@ -247,11 +247,11 @@ impl Content<'_> {
         let room = 0.03 * (ends[1] - ends[0]);
         let x =
             Dimension::new("", name).within([factor * (ends[0] - room), factor * (ends[1] + room)]);
-        let x_of = |point: &Point| factor * variable.value(point).unwrap_or(f64::NAN);
+        let x_of = |point: &SweepPoint| factor * variable.value(point).unwrap_or(f64::NAN);
         let all = || self.series.iter().take(MOST_SERIES).enumerate();
         let series = all().flat_map(|(k, (name, points))| {
             quantities.iter().map(move |quantity| {
-                let placed = |point: &&Point| {
+                let placed = |point: &&SweepPoint| {
                     let known = self.sweep.assessment(point.index);
                     let known = known.and_then(|one| quantity.of(one));
                     ChartPoint {
@@ -325,7 +325,8 @@ impl Content<'_> {
     /// One figure over two numbers, one cell per point.
     fn map(&self, canvas: &mut Canvas, place: Box4, heading: &str, quantity: &Quantity) {
         let points = || self.series.iter().flat_map(|(_, points)| points);
-        let value = |point: &Point| Some(quantity.of(self.sweep.assessment(point.index)?)?.value);
+        let value =
+            |point: &SweepPoint| Some(quantity.of(self.sweep.assessment(point.index)?)?.value);
         let finite = points().filter_map(|point| value(point).filter(|it| it.is_finite()));
         let most = finite.fold(f64::MIN_POSITIVE, f64::max);
         let shown = Shown::new(quantity.measure, most);

@@ -1,7 +1,7 @@
 //! A finished search, with what became of its points.
 
 use crate::points::Sweep;
-use jobs::search::{Found, Search, Standing, Verdict};
+use jobs::search::{Search, SearchResult, Standing, Verdict};
 use jobs::sweep::Plan;
 use ordered_float::OrderedFloat;
 use physics::order::Order;
@@ -11,7 +11,7 @@ pub struct Searched<'a> {
     /// The search.
     pub search: &'a Search,
     /// What it found.
-    pub found: &'a Found,
+    pub found: &'a SearchResult,
     /// How each point stands, and what became of it.
     pub standings: Vec<Standing>,
     /// What became of each point.
@@ -24,7 +24,7 @@ pub struct Searched<'a> {
 
 impl<'a> Searched<'a> {
     /// The answers of a search.
-    pub fn new(search: &'a Search, found: &'a Found) -> Self {
+    pub fn new(search: &'a Search, found: &'a SearchResult) -> Self {
         let mut plan = search.plan.clone();
         for (k, axis) in plan
             .axes

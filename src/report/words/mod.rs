@@ -15,10 +15,10 @@ use super::page::meetings::{Carrier, Met};
 use super::plots::chart::{Chart, ChartPoint, Dimension, Look};
 use super::values::positive_zero;
 use jobs::output::Command;
-use jobs::word_sets::{Found, Sought, file};
+use jobs::word_sets::{Sought, WordsResult, file};
 use physics::configuration::Configuration;
 use physics::units::si;
-use physics::words::frontier::Point;
+use physics::words::frontier::FrontierPoint;
 use physics::words::set::name;
 use physics::words::{Answer, Bar, Fault, Word, WrongContact};
 
@@ -40,10 +40,10 @@ pub const FILES: Command = Command {
 const LISTED: usize = 40;
 
 /// The document of a search for words.
-pub fn document(found: &Found) -> Document<'_> {
+pub fn document(found: &WordsResult) -> Document<'_> {
     match found {
-        Found::Even(sought) => of_sought(sought),
-        Found::Anywhere(spaced) => spaced::document(spaced),
+        WordsResult::Even(sought) => of_sought(sought),
+        WordsResult::Anywhere(spaced) => spaced::document(spaced),
     }
 }
 
@@ -218,7 +218,7 @@ fn meeting(meeting: &WrongContact, bar: &Bar) -> Value {
 }
 
 #[rustfmt::skip]
-fn points(points: &[Point]) -> Table {
+fn points(points: &[FrontierPoint]) -> Table {
     rows(points)
         .column("asked_gap", "gap asked", "smallest gap of the words", |it| it.asked).digits(4)
         .column("count", "words", "number found", |it| it.found.words.len())

@@ -109,7 +109,7 @@ fn along(row: &[Four; 2], [a, b]: [&Four; 2]) -> f64 {
 
 /// A contact point with the data of the solver, for velocities multiplied by the root of the mass (or
 /// inertia): a unit impulse then changes them by the point's row.
-struct Point {
+struct SolverPoint {
     tiles: [usize; 2],
     /// Normal and tangent, for both sides.
     rows: [[Four; 2]; 2],
@@ -120,7 +120,7 @@ struct Point {
     swept: [f64; 2],
 }
 
-impl Point {
+impl SolverPoint {
     /// The point of a hold between two tiles of a cluster; `roots` are the inverse roots of the masses.
     fn new(hold: &Hold, tiles: [usize; 2], roots: &[Vector3<f64>], friction: f64) -> Self {
         let rows = hold
@@ -252,10 +252,10 @@ fn hold_cluster(
         let [first, second] = holds[*k].tiles.map(|it| it.map(|tile| local[tile]));
         let second = second.or(first).unwrap_or(0);
         let tiles = [first.unwrap_or(second), second];
-        Point::new(&holds[*k], tiles, &roots, friction)
+        SolverPoint::new(&holds[*k], tiles, &roots, friction)
     };
     let cluster = from_both_halves(cluster);
-    let mut points: Points<Point> = cluster.iter().map(point).collect();
+    let mut points: Points<SolverPoint> = cluster.iter().map(point).collect();
     let lie = |k: &usize| {
         let tile = local[rests[*k].tile];
         RestPoint::new(&rests[*k], tile, &roots[tile])
@@ -265,7 +265,7 @@ fn hold_cluster(
     let own = own.map(|(tile, root)| four(velocities[*tile].component_div(root)));
     let free: Each<Four> = own.collect();
     let mut own = free.clone();
-    let mut sweep = |own: &mut Each<Four>, points: &mut Points<Point>| {
+    let mut sweep = |own: &mut Each<Four>, points: &mut Points<SolverPoint>| {
         let solution = Solution {
             roots: &roots,
             velocities: own,
@@ -301,7 +301,7 @@ fn hold_cluster(
 }
 
 /// The impulses of a cluster's points by pivots, from the velocities without them.
-fn by_pivots(points: &[Point], free: &[Four]) -> Option<Vec<[f64; 2]>> {
+fn by_pivots(points: &[SolverPoint], free: &[Four]) -> Option<Vec<[f64; 2]>> {
     // Impulses in units in which each has a response of 1 to its own push, and velocities in those of the fastest.
     let units: Vec<f64> = points.iter().map(|it| it.response.nn.sqrt()).collect();
     let n = 4 * points.len();
@@ -356,7 +356,7 @@ fn by_pivots(points: &[Point], free: &[Four]) -> Option<Vec<[f64; 2]>> {
 struct Solution<'a> {
     roots: &'a [Vector3<f64>],
     velocities: &'a mut [Four],
-    points: &'a mut [Point],
+    points: &'a mut [SolverPoint],
     rests: &'a mut [RestPoint],
     error: f64,
 }
@@ -550,10 +550,15 @@ mod tests {
                 });
                 let start: Vec<_> = velocities.collect();
                 let roots: Vec<_> = inverse.iter().map(|it| it.map(f64::sqrt)).collect();
-                let mut points: Vec<Point> = holds
+                let mut points: Vec<SolverPoint> = holds
                     .iter()
                     .map(|hold| {
-                        Point::new(hold, hold.tiles.map(|it| it.unwrap_or(0)), &roots, friction)
+                        SolverPoint::new(
+                            hold,
+                            hold.tiles.map(|it| it.unwrap_or(0)),
+                            &roots,
+                            friction,
+                        )
                     })
                     .collect();
                 let scaled = start.iter().zip(&roots);

@@ -28,7 +28,7 @@ const TURNED: f64 = 0.1;
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
 )]
-pub enum Shape {
+pub enum StructureShape {
     /// A closed cycle of bonds, without other bonds.
     Ring,
     /// An open row: its ends have one bond, all other tiles two.
@@ -39,7 +39,7 @@ pub enum Shape {
     Target,
 }
 
-impl Shape {
+impl StructureShape {
     /// Its name in outputs.
     pub fn name(self) -> &'static str {
         match self {
@@ -55,7 +55,7 @@ impl Shape {
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Structure {
     /// Its kind.
-    pub shape: Shape,
+    pub shape: StructureShape,
     /// Its tiles, ascending.
     pub tiles: Vec<usize>,
     /// Its bonds.
@@ -69,7 +69,7 @@ pub struct Structure {
 }
 
 /// All structures of two tiles or more, in the order of their first tiles; those that are the
-/// crowd's goal are listed once more as [`Shape::Target`].
+/// crowd's goal are listed once more as [`StructureShape::Target`].
 pub fn structures(crowd: &Crowd, movers: &[Mover], held: &[Held]) -> Vec<Structure> {
     let bonds: Vec<Held> = held
         .iter()
@@ -91,7 +91,7 @@ pub fn structures(crowd: &Crowd, movers: &[Mover], held: &[Held]) -> Vec<Structu
         if let Some(goal) = crowd.goal.as_ref().filter(|goal| part.is(goal, &found)) {
             debug_assert_eq!(goal.tiles(), found.tiles.len());
             all.push(Structure {
-                shape: Shape::Target,
+                shape: StructureShape::Target,
                 ..found.clone()
             });
         }
@@ -223,9 +223,9 @@ impl<'a> Part<'a> {
         // Tiles that can have two bonds at most close to rings, also around a point.
         let two_at_most = || (0..count).all(|k| self.crowd.binding_faces(self.kind(k)) <= 2);
         let shape = match (is_row, ends) {
-            (true, 2) => Shape::Chain,
-            (true, 0) if holes > 0 || two_at_most() => Shape::Ring,
-            _ => Shape::Sheet,
+            (true, 2) => StructureShape::Chain,
+            (true, 0) if holes > 0 || two_at_most() => StructureShape::Ring,
+            _ => StructureShape::Sheet,
         };
         Structure {
             shape,
@@ -287,8 +287,10 @@ impl<'a> Part<'a> {
     /// Whether this is the goal.
     fn is(&self, goal: &Goal, found: &Structure) -> bool {
         match goal {
-            Goal::Ring(count) => found.shape == Shape::Ring && found.tiles.len() == *count,
-            Goal::Chain(count) => found.shape == Shape::Chain && found.tiles.len() == *count,
+            Goal::Ring(count) => found.shape == StructureShape::Ring && found.tiles.len() == *count,
+            Goal::Chain(count) => {
+                found.shape == StructureShape::Chain && found.tiles.len() == *count
+            }
             Goal::Sheet(rows, columns) => {
                 found.rectangle == Some([*rows.max(columns), *rows.min(columns)])
                     && found.bonds == found.possible

@@ -24,7 +24,7 @@ use super::{Task, local};
 
 /// A set of words, and a bound of larger ones.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct FoundSet {
     /// Ascending.
     pub words: Vec<Word>,
     /// No set has more words than this.
@@ -35,7 +35,7 @@ pub struct Found {
     pub complete: bool,
 }
 
-impl Found {
+impl FoundSet {
     /// Whether no larger set exists.
     pub fn is_proved(&self) -> bool {
         self.words.len() == self.upper
@@ -63,7 +63,7 @@ const BOND: u64 = 100;
 const LADDER: usize = 8;
 
 /// The largest set of words with at least this gap; stops at `enough` words.
-pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Found {
+pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> FoundSet {
     let limit = |bond: f64| limit(gap, bond);
     let first = Candidates::new(
         task,
@@ -136,7 +136,7 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
         true => upper.min(code_bound),
         false => code_bound.min(all_classes(task)),
     };
-    Found {
+    FoundSet {
         upper: upper.max(found.len()),
         words: found,
         candidates,

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use tilebind::sweep::{Plan, Point, Store};
+use tilebind::sweep::{Plan, Store, SweepPoint};
 
 use super::{DEPTH, DESIGN, QUICK, assert_same, done, run, text};
 use crate::program::stderr;
@@ -15,7 +15,7 @@ fn sweep(out: &Path) {
     done(&[&what[..], &QUICK, &["--out", text(out)]].concat());
 }
 
-fn points(out: &Path) -> Vec<(Point, PathBuf)> {
+fn points(out: &Path) -> Vec<(SweepPoint, PathBuf)> {
     let plan = fs::read_to_string(out.join("plan.json")).unwrap();
     let points = Plan::parse(&plan).unwrap().points().into_iter();
     points

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 /// A point of an integral.
-pub(super) struct Point {
+pub(super) struct QuadraturePoint {
     /// Its position as a share of the cell's size.
     pub part: [f64; 3],
     /// The metric for gradients by these shares, without the weight.
@@ -53,7 +53,7 @@ impl Element {
     }
 
     /// Adds a point to the integrals.
-    pub(super) fn add(&mut self, point: &Point) {
+    pub(super) fn add(&mut self, point: &QuadraturePoint) {
         let [weight, load] = point.weights;
         let metric = point.metric * (point.share * weight);
         let volume = point.share * point.volume;

@@ -5,7 +5,7 @@
 use nalgebra::Matrix3;
 
 use super::chart::Chart;
-use super::element::{Element, Point};
+use super::element::{Element, QuadraturePoint};
 use super::octree::Leaf;
 use tiles::configuration::Configuration;
 use tiles::contact::cells::ContactCells;
@@ -171,7 +171,7 @@ impl<'a> Lines<'a> {
 
     /// Calls with the points along lines through a part of the face, given by its ends in phi and
     /// theta.
-    fn fill(&mut self, face: [[f64; 2]; 2], halved: usize, add: &mut dyn FnMut(&Point)) {
+    fn fill(&mut self, face: [[f64; 2]; 2], halved: usize, add: &mut dyn FnMut(&QuadraturePoint)) {
         let place = |axis: usize, k: usize| {
             let [from, to] = face[axis];
             from + GAUSS[k] * (to - from)
@@ -197,7 +197,7 @@ impl<'a> Lines<'a> {
                 let mobility = self.of.problem.mobility(&q, self.of.both_move);
                 let volume = self.chart.volume(s) * size;
                 let by = self.gradients(at);
-                add(&Point {
+                add(&QuadraturePoint {
                     part,
                     metric: by.transpose() * mobility * by * volume,
                     volume,
