@@ -19,6 +19,7 @@ mod mover;
 mod near;
 mod pair;
 mod pivot;
+mod point;
 mod rest;
 mod rim;
 mod short;

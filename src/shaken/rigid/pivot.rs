@@ -11,15 +11,69 @@
 //! whatever the friction. Sweeps are not sure to: above some friction, a point's rub lifts its
 //! neighbour more than the neighbour's lifts it.
 
+use super::point::{SolverPoint, along};
+use super::rest::Four;
+
 /// Pivots per row at most.
 const PIVOTS: usize = 50;
 /// Elements below this share of the largest, which is of the order of 1, are rounding.
 const ROUNDING: f64 = 1e-11;
 
+/// The impulses of a cluster's points by pivots, from the velocities without them.
+pub fn by_pivots(points: &[SolverPoint], free: &[Four]) -> Option<Vec<[f64; 2]>> {
+    // Impulses in units in which each has a response of 1 to its own push, and velocities in those of the fastest.
+    let units: Vec<f64> = points.iter().map(|it| it.response.nn.sqrt()).collect();
+    let n = 4 * points.len();
+    let mut offset = vec![0.0; n];
+    for ((offset, point), unit) in offset.chunks_mut(4).zip(points).zip(&units) {
+        let [normal, slip] = [0, 1].map(|row| {
+            let both = point.tiles.map(|tile| &free[tile]);
+            along(&point.rows[row], both) / unit
+        });
+        offset.copy_from_slice(&[normal - point.least / unit, slip, -slip, 0.0]);
+    }
+    let size = offset.iter().map(|it| it.abs()).fold(0.0, f64::max);
+    if size == 0.0 {
+        return None;
+    }
+    offset.iter_mut().for_each(|it| *it /= size);
+    let mut matrix = vec![0.0; n * n];
+    for (k, (one, unit)) in points.iter().zip(&units).enumerate() {
+        for (l, (other, by)) in points.iter().zip(&units).enumerate() {
+            // The response of a row of one point to an impulse along a row of the other.
+            let answer = |row: usize, column: usize| {
+                let sides = one.tiles.iter().zip(&one.rows[row]);
+                let each = sides.map(|(tile, own)| {
+                    let theirs = other.tiles.iter().zip(&other.rows[column]);
+                    let same = theirs.filter(|(of, _)| *of == tile);
+                    same.map(|(_, theirs)| own.iter().zip(theirs).map(|(a, b)| a * b).sum::<f64>())
+                        .sum::<f64>()
+                });
+                each.sum::<f64>() / (unit * by)
+            };
+            for row in 0..3 {
+                let of = [0, 1, 1][row];
+                let sign = if row == 2 { -1.0 } else { 1.0 };
+                let at = (4 * k + row) * n + 4 * l;
+                let [push, rub] = [0, 1].map(|column| sign * answer(of, column));
+                matrix[at..at + 3].copy_from_slice(&[push, rub, -rub]);
+            }
+        }
+        let own = |row: usize| (4 * k + row) * n + 4 * k;
+        matrix[own(1) + 3] = 1.0;
+        matrix[own(2) + 3] = 1.0;
+        matrix[own(3)..own(3) + 3].copy_from_slice(&[one.response.friction, -1.0, -1.0]);
+    }
+    let found = complementary(&matrix, &offset)?;
+    let each = found.chunks(4).zip(&units);
+    let impulses = each.map(|(it, unit)| [it[0], it[1] - it[2]].map(|it| it * size / unit));
+    Some(impulses.collect())
+}
+
 /// Numbers w and z, none below 0, with `w = matrix z + offset` and one of each two equal to 0; returns z.
 /// `None` if there are none, or they are not found. The offset should be of the order of 1, like the matrix,
 /// of which this is the row-major list of rows.
-pub fn complementary(matrix: &[f64], offset: &[f64]) -> Option<Vec<f64>> {
+fn complementary(matrix: &[f64], offset: &[f64]) -> Option<Vec<f64>> {
     let n = offset.len();
     let worst = (0..n).min_by(|a, b| offset[*a].total_cmp(&offset[*b]))?;
     if offset[worst] >= 0.0 {

@@ -26,7 +26,8 @@ use nalgebra::Vector3;
 
 use super::clusters::{clusters, from_both_halves};
 use super::hold::Hold;
-use super::pivot::complementary;
+use super::pivot::by_pivots;
+use super::point::{SolverPoint, four};
 use super::rest::{Four, Rest, RestPoint};
 use super::short::{Each, Points};
 use tiles::potential::simd::Level;
@@ -42,156 +43,6 @@ const PIVOTED: usize = 100;
 const SLOWEST: f64 = 0.99;
 /// Largest share of a sweep's change by which the impulses go on after it.
 const MOMENTUM: f64 = 0.85;
-
-/// The response of a point to impulses, with the coefficient of friction mu.
-struct Response {
-    nn: f64,
-    nt: f64,
-    tt: f64,
-    /// The inverse of the matrix of these three, `1 / (nn tt - nt^2)` times its elements.
-    stick: [f64; 3],
-    friction: f64,
-    /// Push per lack where the point slides, with the rub at -mu and at +mu times the push.
-    slide: [[f64; 2]; 2],
-}
-
-impl Response {
-    fn new([nn, nt, tt]: [f64; 3], friction: f64) -> Self {
-        let whole = 1.0 / (nn * tt - nt * nt);
-        let slide = [-friction, friction].map(|share| {
-            let answer = nn + share * nt;
-            if answer <= 1e-3 * nn {
-                // Friction would grow without limit here (Painleve's paradox): only the normal
-                // impulse acts.
-                return [1.0 / nn, 0.0];
-            }
-            [1.0 / answer, share / answer]
-        });
-        Self {
-            nn,
-            nt,
-            tt,
-            stick: [tt, nt, nn].map(|it| it * whole),
-            friction,
-            slide,
-        }
-    }
-
-    /// The impulses along normal and tangent that the contact law requires, from the velocities
-    /// without them.
-    #[inline(always)]
-    fn impulses(&self, lack: f64, slip: f64) -> [f64; 2] {
-        if lack <= 0.0 {
-            return [0.0; 2];
-        }
-        let [tt, nt, nn] = self.stick;
-        let push = tt * lack + nt * slip;
-        let rub = -(nt * lack + nn * slip);
-        if rub.abs() <= self.friction * push {
-            return [push, rub];
-        }
-        // It slides: the impulse lies on the side of the friction cone opposite to the sliding.
-        self.slide[usize::from(rub > 0.0)].map(|per| per * lack)
-    }
-}
-
-#[inline(always)]
-fn four(v: Vector3<f64>) -> Four {
-    [v.x, v.y, v.z, 0.0]
-}
-
-/// The sum of the products of both sides.
-#[inline(always)]
-fn along(row: &[Four; 2], [a, b]: [&Four; 2]) -> f64 {
-    let [x, y, turn, none] = [0, 1, 2, 3].map(|k| row[0][k] * a[k] + row[1][k] * b[k]);
-    (x + turn) + (y + none)
-}
-
-/// A contact point with the data of the solver, for velocities multiplied by the root of the mass (or
-/// inertia): a unit impulse then changes them by the point's row.
-struct SolverPoint {
-    tiles: [usize; 2],
-    /// Normal and tangent, for both sides.
-    rows: [[Four; 2]; 2],
-    response: Response,
-    least: f64,
-    impulses: [f64; 2],
-    /// The impulses after the last sweep.
-    swept: [f64; 2],
-}
-
-impl SolverPoint {
-    /// The point of a hold between two tiles of a cluster; `roots` are the inverse roots of the masses.
-    fn new(hold: &Hold, tiles: [usize; 2], roots: &[Vector3<f64>], friction: f64) -> Self {
-        let rows = hold
-            .rows
-            .map(|row| [0, 1].map(|k| four(row[k].component_mul(&roots[tiles[k]]))));
-        let product = |a: usize, b: usize| along(&rows[a], [&rows[b][0], &rows[b][1]]);
-        let [nn, nt, tt] = [product(0, 0), product(0, 1), product(1, 1)];
-        Self {
-            tiles,
-            rows,
-            response: Response::new([nn, nt, tt], friction),
-            least: hold.least,
-            impulses: hold.impulses,
-            swept: hold.impulses,
-        }
-    }
-
-    #[inline(always)]
-    fn push(&self, [push, rub]: [f64; 2], velocities: &mut [Four]) {
-        let [normal, tangent] = &self.rows;
-        for (side, tile) in self.tiles.into_iter().enumerate() {
-            let velocity = &mut velocities[tile];
-            for (k, v) in velocity.iter_mut().enumerate() {
-                *v += normal[side][k] * push + tangent[side][k] * rub;
-            }
-        }
-    }
-
-    /// Solves for the impulses of this point.
-    #[inline(always)]
-    fn solve(&mut self, velocities: &mut [Four]) {
-        let both = self.tiles.map(|tile| &velocities[tile]);
-        let [push, rub] = self.impulses;
-        let Response { nn, nt, tt, .. } = self.response;
-        let lack = self.least - along(&self.rows[0], both) + nn * push + nt * rub;
-        if lack <= 0.0 && self.impulses == [0.0; 2] {
-            return;
-        }
-        let slip = along(&self.rows[1], both) - nt * push - tt * rub;
-        let asked = self.response.impulses(lack, slip);
-        self.push([asked[0] - push, asked[1] - rub], velocities);
-        self.impulses = asked;
-    }
-
-    /// Whether its impulses are as the law of contact has it, velocities being known to `error` (m/s).
-    fn obeys(&self, velocities: &[Four], error: f64) -> bool {
-        let both = self.tiles.map(|tile| &velocities[tile]);
-        let [push, rub] = self.impulses;
-        let beyond = along(&self.rows[0], both) - self.least;
-        let slip = along(&self.rows[1], both);
-        let most = self.response.friction * push;
-        let against = rub.abs() >= most * (1.0 - 1e-9) && rub * slip <= 0.0;
-        let rubs = rub.abs() <= most * (1.0 + 1e-9) && (slip.abs() <= error || against);
-        beyond >= -error && (push == 0.0 || (beyond <= error && rubs))
-    }
-
-    /// After a sweep: goes on by a share of its change, within the friction cone. The velocities have
-    /// done so without the cone.
-    #[inline(always)]
-    fn go_on(&mut self, share: f64, velocities: &mut [Four]) {
-        let now = self.impulses;
-        let [push, rub] = [0, 1].map(|row| now[row] + (now[row] - self.swept[row]) * share);
-        self.swept = now;
-        let pushed = push.max(0.0);
-        let most = self.response.friction * pushed;
-        self.impulses = [pushed, rub.clamp(-most, most)];
-        if self.impulses != [push, rub] {
-            self.push([pushed - push, self.impulses[1] - rub], velocities);
-        }
-    }
-}
 
 /// Changes the velocities by the impulses of all points; returns whether they were found. The
 /// impulses are stored in the holds; the solver starts from the stored ones. Sweeps end when the
@@ -298,57 +149,6 @@ fn hold_cluster(
         velocities[*tile] = Vector3::new(x, y, turn).component_mul(root);
     }
     is_found
-}
-
-/// The impulses of a cluster's points by pivots, from the velocities without them.
-fn by_pivots(points: &[SolverPoint], free: &[Four]) -> Option<Vec<[f64; 2]>> {
-    // Impulses in units in which each has a response of 1 to its own push, and velocities in those of the fastest.
-    let units: Vec<f64> = points.iter().map(|it| it.response.nn.sqrt()).collect();
-    let n = 4 * points.len();
-    let mut offset = vec![0.0; n];
-    for ((offset, point), unit) in offset.chunks_mut(4).zip(points).zip(&units) {
-        let [normal, slip] = [0, 1].map(|row| {
-            let both = point.tiles.map(|tile| &free[tile]);
-            along(&point.rows[row], both) / unit
-        });
-        offset.copy_from_slice(&[normal - point.least / unit, slip, -slip, 0.0]);
-    }
-    let size = offset.iter().map(|it| it.abs()).fold(0.0, f64::max);
-    if size == 0.0 {
-        return None;
-    }
-    offset.iter_mut().for_each(|it| *it /= size);
-    let mut matrix = vec![0.0; n * n];
-    for (k, (one, unit)) in points.iter().zip(&units).enumerate() {
-        for (l, (other, by)) in points.iter().zip(&units).enumerate() {
-            // The response of a row of one point to an impulse along a row of the other.
-            let answer = |row: usize, column: usize| {
-                let sides = one.tiles.iter().zip(&one.rows[row]);
-                let each = sides.map(|(tile, own)| {
-                    let theirs = other.tiles.iter().zip(&other.rows[column]);
-                    let same = theirs.filter(|(of, _)| *of == tile);
-                    same.map(|(_, theirs)| own.iter().zip(theirs).map(|(a, b)| a * b).sum::<f64>())
-                        .sum::<f64>()
-                });
-                each.sum::<f64>() / (unit * by)
-            };
-            for row in 0..3 {
-                let of = [0, 1, 1][row];
-                let sign = if row == 2 { -1.0 } else { 1.0 };
-                let at = (4 * k + row) * n + 4 * l;
-                let [push, rub] = [0, 1].map(|column| sign * answer(of, column));
-                matrix[at..at + 3].copy_from_slice(&[push, rub, -rub]);
-            }
-        }
-        let own = |row: usize| (4 * k + row) * n + 4 * k;
-        matrix[own(1) + 3] = 1.0;
-        matrix[own(2) + 3] = 1.0;
-        matrix[own(3)..own(3) + 3].copy_from_slice(&[one.response.friction, -1.0, -1.0]);
-    }
-    let found = complementary(&matrix, &offset)?;
-    let each = found.chunks(4).zip(&units);
-    let impulses = each.map(|(it, unit)| [it[0], it[1] - it[2]].map(|it| it * size / unit));
-    Some(impulses.collect())
 }
 
 /// Solves for all points of a cluster whose masses have these inverse roots; its result is the number
