@@ -17,7 +17,7 @@ pub struct DesignJob<R: Args> {
     design: DesignOptions,
 
     #[command(flatten)]
-    pub request: R,
+    request: R,
 
     #[command(flatten)]
     threads: ThreadOption,

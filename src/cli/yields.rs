@@ -4,8 +4,7 @@ use clap::Args;
 use tilebind::report::yields::{FILES, document};
 use tilebind::yields::{Request, expected, yields};
 
-use super::options::{DesignOptions, ThreadOption};
-use super::results::ResultOptions;
+use super::design_job::DesignJob;
 use super::{Failure, workload};
 
 /// Print how many pairs are bound after a time on a shaken table, and which shaking binds most
@@ -13,16 +12,7 @@ use super::{Failure, workload};
 #[command(after_help = EXAMPLES, after_long_help = format!("{NOTES}\n\n{EXAMPLES}"))]
 pub struct YieldCommand {
     #[command(flatten)]
-    design: DesignOptions,
-
-    #[command(flatten)]
-    request: Request,
-
-    #[command(flatten)]
-    threads: ThreadOption,
-
-    #[command(flatten)]
-    results: ResultOptions,
+    job: DesignJob<Request>,
 }
 
 const NOTES: &str = "\
@@ -54,16 +44,12 @@ Examples:
 
 impl YieldCommand {
     pub fn run(self) -> Result<(), Failure> {
-        let design = self.design.load()?;
-        let output = self.results.output(&FILES, self.design.inputs(&design))?;
-        self.threads.use_threads()?;
-        let threads = self.threads.count();
-        self.request.check_memory(threads).map_err(Failure::of)?;
-        let expected = expected(&design, &self.request).map_err(Failure::of)?;
+        let (request, mut begun) = self.job.begin(&FILES)?;
+        let (design, threads) = (&begun.design, begun.threads);
+        request.check_memory(threads).map_err(Failure::of)?;
+        let expected = expected(design, &request).map_err(Failure::of)?;
         workload::tell_expected(expected, threads);
-        let progress = self.results.progress();
-        let found = yields(&design, &self.request, &progress).map_err(Failure::of)?;
-        let document = document(&design, &self.request, &found);
-        self.results.deliver(&document, output, &progress)
+        let found = yields(design, &request, &begun.progress).map_err(Failure::of)?;
+        begun.deliver(|design| document(design, &request, &found))
     }
 }

@@ -143,22 +143,10 @@ fn check(name: &str, command: &str, folder: &Path) {
     if digests == kept {
         return;
     }
-    let changed: Vec<&str> = digests
-        .lines()
-        .filter(|line| !kept.lines().any(|it| it == *line))
-        .collect();
-    let gone: Vec<&str> = kept
-        .lines()
-        .filter(|line| !digests.lines().any(|it| it == *line))
-        .collect();
-    let mut told = format!(
-        "now:\n{}\nbefore:\n{}\n",
-        changed.join("\n"),
-        gone.join("\n")
-    );
+    let mut told = differences(&kept, &digests, &digest_file(), usize::MAX);
     for (path, text) in texts(name, &found) {
         let before = fs::read_to_string(&path).unwrap_or_default();
-        told += &differences(&before, text, &path);
+        told += &differences(&before, text, &path, SHOWN);
     }
     let all = std::env::temp_dir().join(format!("tilebind-snapshot-{name}"));
     for (name, content) in &found {
@@ -212,8 +200,8 @@ fn texts<'a>(name: &str, found: &'a BTreeMap<String, Vec<u8>>) -> Vec<(PathBuf, 
     kept.into_iter().filter_map(text).collect()
 }
 
-/// The lines that two texts do not share, if there are any.
-fn differences(before: &str, now: &str, path: &Path) -> String {
+/// The lines that two texts do not share, if there are any; at most so many of each.
+fn differences(before: &str, now: &str, path: &Path, most: usize) -> String {
     let only = |sign: char, text: &str, other: &str| -> Vec<String> {
         let mut others: Vec<&str> = other.lines().collect();
         let lines = text
@@ -231,7 +219,7 @@ fn differences(before: &str, now: &str, path: &Path) -> String {
     if lines.concat().is_empty() {
         return String::new();
     }
-    let more = |lines: &Vec<String>| lines.iter().take(SHOWN).cloned().collect::<String>();
+    let more = |lines: &Vec<String>| lines.iter().take(most).cloned().collect::<String>();
     format!(
         "{}:\n{}{}",
         path.display(),
@@ -242,7 +230,7 @@ fn differences(before: &str, now: &str, path: &Path) -> String {
 
 #[test]
 fn differing_lines_are_shown() {
-    let told = differences("a\nb\nb\n", "b\nc\n", Path::new("x"));
+    let told = differences("a\nb\nb\n", "b\nc\n", Path::new("x"), SHOWN);
     assert_eq!(told, "x:\n- a\n- b\n+ c\n");
-    assert_eq!(differences("a\n", "a\n", Path::new("x")), "");
+    assert_eq!(differences("a\n", "a\n", Path::new("x"), SHOWN), "");
 }
