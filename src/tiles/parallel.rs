@@ -152,6 +152,8 @@ fn size(count: usize) -> usize {
 fn shared_out(parts: usize, work: &(dyn Fn(usize) + Sync)) {
     match parts {
         1 => work(0),
+        // Without waking the thread and waiting for it.
+        _ if threads() == 1 => (0..parts).for_each(work),
         _ => {
             let parts = (0..parts).into_par_iter().with_max_len(1);
             parts.panic_fuse().for_each(work);
