@@ -7,7 +7,7 @@ use super::encounter::{BOTH, Encounter, FIXED, MOVING};
 use super::flight;
 use super::force::Forces;
 use super::simulation::{Run, Simulation, Snapshot, Stop};
-use crate::rigid::{Account, Island, Masses, Mover, NearPair, Pose, Rider, State};
+use crate::rigid::{Account, Island, Masses, Mover, NearPair, Pose, Rider, Solver, State};
 use crate::rigid::{Motion, Phase, normal};
 
 /// A tile in contact is at rest when no point of it moves faster than this (m/s), which is a
@@ -244,6 +244,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             account: Account::default(),
             steps: 0,
             is_solved: true,
+            solver: Solver::default(),
         };
         let stop = self.slide(&mut island, masses, until, watch);
         self.near = Some(near);

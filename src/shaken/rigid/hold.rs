@@ -75,33 +75,26 @@ impl Hold {
         hold
     }
 
-    /// The gap (m) after the tiles have been moved by `way` times `h`.
-    pub fn gap_after(&self, way: &[Vector3<f64>], h: f64, skin: f64) -> f64 {
+    /// The gap (m) after the tiles have moved.
+    pub fn gap_after(&self, moves: &[Move], skin: f64) -> f64 {
         let between = self.axis * (self.gap + skin);
-        let steps = self
-            .tiles
-            .map(|tile| tile.map_or(Vector3::zeros(), |tile| way[tile] * h));
-        // What a rotation by an angle adds to a vector.
-        let turned = |of: Vector2<f64>, angle: f64| {
-            if angle == 0.0 {
-                return Vector2::zeros();
-            }
-            let (sin, half) = (libm::sin(angle), libm::sin(0.5 * angle));
-            Vector2::new(-of.y, of.x) * sin - of * (2.0 * half * half)
-        };
+        let [of_behind, of_front] = self.tiles.map(|tile| tile.map(|tile| &moves[tile]));
+        let moved = |of: Option<&Move>, arm| of.map_or(Vector2::zeros(), |it| it.of_arm(arm));
         if let Some(radius) = self.rim {
-            let now = self.point + steps[1].xy() + turned(self.arms[1], steps[1].z);
+            let now = self.point + moved(of_front, self.arms[1]);
             return radius - now.norm();
         }
         // The point behind lies on the outline of its tile.
-        let arms = [self.arms[0] - between, self.arms[1]];
-        let [behind, front] =
-            [0, 1].map(|side| steps[side].xy() + turned(arms[side], steps[side].z));
+        let behind = moved(of_behind, self.arms[0] - between);
+        let front = moved(of_front, self.arms[1]);
         let now = between + front - behind;
-        let by = |angle: f64| (self.axis + turned(self.axis, angle)).dot(&now);
+        let by = |of: Option<&Move>| {
+            let turned = of.map_or(Vector2::zeros(), |it| it.turned(self.axis));
+            (self.axis + turned).dot(&now)
+        };
         let distance = match self.turns_with {
-            TurnsWith::Behind => by(steps[0].z),
-            TurnsWith::InFront => by(steps[1].z),
+            TurnsWith::Behind => by(of_behind),
+            TurnsWith::InFront => by(of_front),
             TurnsWith::Line => now.norm().copysign(now.dot(&self.axis)),
         };
         distance - skin
@@ -147,6 +140,51 @@ impl Hold {
     }
 }
 
+/// Angles (rad) below this are turned by with series: their errors are below rounding.
+const SMALL: f64 = 0.01;
+
+/// How a tile moves in a step.
+#[derive(Clone, Copy)]
+pub struct Move {
+    /// By how much (m).
+    shift: Vector2<f64>,
+    /// The sine of the angle that it turns by, and 1 less its cosine.
+    sin: f64,
+    less: f64,
+}
+
+impl Move {
+    /// By a velocity (m/s, m/s, rad/s) in a time (s).
+    pub fn new(velocity: &Vector3<f64>, h: f64) -> Self {
+        let step = velocity * h;
+        let angle = step.z;
+        let square = angle * angle;
+        let (sin, less) = if angle.abs() < SMALL {
+            let sin = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0));
+            let less = 1.0 - square / 12.0 * (1.0 - square / 30.0);
+            (angle * sin, 0.5 * square * less)
+        } else {
+            let half = libm::sin(0.5 * angle);
+            (libm::sin(angle), 2.0 * half * half)
+        };
+        Self {
+            shift: step.xy(),
+            sin,
+            less,
+        }
+    }
+
+    /// What the turn adds to a vector.
+    fn turned(&self, of: Vector2<f64>) -> Vector2<f64> {
+        Vector2::new(-of.y, of.x) * self.sin - of * self.less
+    }
+
+    /// The way (m) of a point at an arm from the tile's centre.
+    fn of_arm(&self, arm: Vector2<f64>) -> Vector2<f64> {
+        self.shift + self.turned(arm)
+    }
+}
+
 /// Kinetic energy (J) of velocities.
 pub fn kinetic(masses: &[Vector3<f64>], velocities: &[Vector3<f64>]) -> f64 {
     let each = masses.iter().zip(velocities);
@@ -182,6 +220,24 @@ pub fn share_within(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn small_turns_are_exact() {
+        for angle in [
+            1e-9,
+            1e-5,
+            1e-3,
+            -0.7 * SMALL,
+            0.999 * SMALL,
+            1.001 * SMALL,
+            1.0,
+        ] {
+            let it = Move::new(&Vector3::new(0.0, 0.0, angle), 1.0);
+            let less = 2.0 * libm::sin(0.5 * angle) * libm::sin(0.5 * angle);
+            assert!((it.sin / libm::sin(angle) - 1.0).abs() < 5e-16, "{angle}");
+            assert!((it.less / less - 1.0).abs() < 5e-16, "{angle}");
+        }
+    }
 
     #[test]
     fn a_share_of_a_change_ends_at_the_energy() {

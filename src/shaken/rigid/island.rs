@@ -23,7 +23,7 @@ use super::mover::{Mover, Rider};
 use super::near::NearPair;
 use super::pair::{Pose, Two};
 use super::short::Each;
-use super::solve::hold_back;
+use super::solve::Solver;
 
 /// A step is halved this often at most.
 const HALVINGS: i32 = 12;
@@ -82,6 +82,8 @@ pub struct Island<'a, W> {
     pub steps: u64,
     /// Whether contact was solved.
     pub is_solved: bool,
+    /// Room for the solution of contact.
+    pub solver: Solver,
 }
 
 impl<W: World> Island<'_, W> {
@@ -261,12 +263,10 @@ impl<W: World> Island<'_, W> {
             hold.impulses = [0.0; 2];
         }
         let mut shifts: Each<_> = self.riders.iter().map(|_| Vector3::zeros()).collect();
-        if !hold_back(
-            inverse,
-            &mut shifts,
-            (&mut holds, &mut []),
-            [0.0, PRECISE * self.margins.rounding],
-        ) {
+        let error = PRECISE * self.margins.rounding;
+        let solver = &mut self.solver;
+        solver.prepare(shifts.len(), (&holds, &[]), 0.0);
+        if !solver.hold_back(inverse, &mut shifts, (&mut holds, &mut []), error) {
             return Err(Unsolved);
         }
         let forces = state.accelerations.iter().zip(masses);

@@ -11,7 +11,7 @@ use super::hold::{Hold, kinetic, share_within};
 use super::island::{Island, Masses};
 use super::motion::{State, Unsolved};
 use super::short::Each;
-use super::solve::hold_back;
+use super::solve::Solver;
 
 /// The impulses of a knock are searched for this often, each time from those of the last.
 const KNOCKS: usize = 8;
@@ -19,7 +19,7 @@ const KNOCKS: usize = 8;
 impl<W: World> Island<'_, W> {
     /// Changes the velocities where touching points close; returns the energy lost (J).
     pub(super) fn knock(
-        &self,
+        &mut self,
         state: &mut State,
         [masses, inverse]: Masses,
     ) -> Result<f64, Unsolved> {
@@ -49,13 +49,16 @@ impl<W: World> Island<'_, W> {
             hold.least = 0.0;
             hold.impulses = [0.0; 2];
         }
-        let mut stopped = knocked(inverse, &before, &mut holds, law)?;
+        let [friction, error] = law;
+        self.solver.prepare(before.len(), (&holds, &[]), friction);
+        let solver = &mut self.solver;
+        let mut stopped = knocked(solver, inverse, &before, &mut holds, error)?;
         if bounces {
             let of_stop: Vec<_> = holds.iter().map(|hold| hold.impulses).collect();
             for (hold, back) in holds.iter_mut().zip(backs) {
                 hold.least = back;
             }
-            let bounced = knocked(inverse, &before, &mut holds, law)?;
+            let bounced = knocked(solver, inverse, &before, &mut holds, error)?;
             let each = bounced.iter().zip(&stopped);
             let change: Each<_> = each.map(|(bounced, stopped)| bounced - stopped).collect();
             let share = share_within(masses, &stopped, &change, kinetic(masses, &before));
@@ -77,14 +80,15 @@ impl<W: World> Island<'_, W> {
 /// The velocities after a knock. No shorter step makes one easier, so where the search does not suffice, as
 /// in wedges, it goes on.
 fn knocked(
+    solver: &mut Solver,
     inverse: &[Vector3<f64>],
     before: &[Vector3<f64>],
     holds: &mut [Hold],
-    law: [f64; 2],
+    error: f64,
 ) -> Result<Each<Vector3<f64>>, Unsolved> {
     for _ in 0..KNOCKS {
         let mut after = Each::from_slice(before);
-        if hold_back(inverse, &mut after, (holds, &mut []), law) {
+        if solver.hold_back(inverse, &mut after, (holds, &mut []), error) {
             return Ok(after);
         }
     }

@@ -131,7 +131,7 @@ impl<W: World> Island<'_, W> {
         let own: Each<f64> = own.collect();
         let margins = self.margins;
         let margin = |way: f64| margins.least.max(3.0 * way);
-        let mut holds = Vec::new();
+        let mut holds = Vec::with_capacity(4 * self.pairs.len());
         let (world, riders, poses) = (self.world, &self.riders, &self.poses);
         let centre = |tile: usize| riders[tile].mover.place.xy();
         let moves = |tile: usize| (tile < riders.len()).then_some(tile);

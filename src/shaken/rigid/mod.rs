@@ -39,6 +39,7 @@ pub use near::{NearPair, rim_room};
 pub use pair::{Pose, Two, Within, on_the_table};
 pub use rest::{GRAVITY, supports};
 pub use rim::Rim;
+pub use solve::Solver;
 
 use nalgebra::Vector2;
 

@@ -18,6 +18,11 @@ use super::rest::Four;
 const PIVOTS: usize = 50;
 /// Elements below this share of the largest, which is of the order of 1, are rounding.
 const ROUNDING: f64 = 1e-11;
+/// Pivots below this share of the largest element are not made: rows that differ by less are of points that are
+/// nearly the same, and to tell them apart would magnify rounding.
+const ALIKE: f64 = 1e-7;
+/// Solutions are put right this often.
+const REFINED: usize = 3;
 
 /// The impulses of a cluster's points by pivots, from the velocities without them.
 pub fn by_pivots(points: &[SolverPoint], free: &[Four]) -> Option<Vec<[f64; 2]>> {
@@ -65,8 +70,12 @@ pub fn by_pivots(points: &[SolverPoint], free: &[Four]) -> Option<Vec<[f64; 2]>>
         matrix[own(3)..own(3) + 3].copy_from_slice(&[one.response.friction, -1.0, -1.0]);
     }
     let found = complementary(&matrix, &offset)?;
-    let each = found.chunks(4).zip(&units);
-    let impulses = each.map(|(it, unit)| [it[0], it[1] - it[2]].map(|it| it * size / unit));
+    let each = found.chunks(4).zip(&units).zip(points);
+    let impulses = each.map(|((it, unit), point)| {
+        // But for rounding it is within the cone.
+        let most = point.response.friction * it[0];
+        [it[0], (it[1] - it[2]).clamp(-most, most)].map(|it| it * size / unit)
+    });
     Some(impulses.collect())
 }
 
@@ -97,18 +106,34 @@ fn complementary(matrix: &[f64], offset: &[f64]) -> Option<Vec<f64>> {
         pivot(&mut rows, width, row, entering);
         let leaving = std::mem::replace(&mut basic[row], entering);
         if leaving == auxiliary {
-            let mut z = vec![0.0; n];
-            for (row, of) in rows.chunks(width).zip(&basic) {
-                if *of >= n {
-                    z[*of - n] = row[right].max(0.0);
-                }
-            }
-            return Some(z);
+            return Some(refined(&rows, &basic, matrix, offset));
         }
         entering = (leaving + n) % (2 * n);
         row = blocking(&rows, width, entering, &basic, auxiliary)?;
     }
     None
+}
+
+/// The numbers z of a tableau, which many pivots have left inexact: its columns of w are the inverse of those of
+/// the basic numbers, by which what is missing from the equations is put right.
+fn refined(rows: &[f64], basic: &[usize], matrix: &[f64], offset: &[f64]) -> Vec<f64> {
+    let n = offset.len();
+    let width = rows.len() / n;
+    let mut all = vec![0.0; 2 * n];
+    for (row, of) in rows.chunks(width).zip(basic) {
+        all[*of] = row[width - 1];
+    }
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    for _ in 0..REFINED {
+        let (w, z) = all.split_at(n);
+        let each = matrix.chunks(n).zip(offset).zip(w);
+        let missing = each.map(|((row, offset), w)| offset + product(row, z) - w);
+        let missing: Vec<f64> = missing.collect();
+        for (row, of) in rows.chunks(width).zip(basic) {
+            all[*of] += product(&row[..n], &missing);
+        }
+    }
+    all[n..].iter().map(|it| it.max(0.0)).collect()
 }
 
 /// The row whose number is the first to become 0 as that of a column grows; of equal ones the auxiliary
@@ -123,7 +148,7 @@ fn blocking(
     let mut best: Option<(usize, f64, f64)> = None;
     for (k, row) in rows.chunks(width).enumerate() {
         let by = row[column];
-        if by <= ROUNDING {
+        if by <= ALIKE {
             continue;
         }
         let ratio = row[width - 1].max(0.0) / by;

@@ -10,7 +10,6 @@ pub struct Response {
     /// To a push along the normal, of the rate along it.
     pub nn: f64,
     nt: f64,
-    tt: f64,
     /// The inverse of the matrix of these three, `1 / (nn tt - nt^2)` times its elements.
     stick: [f64; 3],
     pub friction: f64,
@@ -33,28 +32,29 @@ impl Response {
         Self {
             nn,
             nt,
-            tt,
             stick: [tt, nt, nn].map(|it| it * whole),
             friction,
             slide,
         }
     }
 
-    /// The impulses along normal and tangent that the contact law requires, from the velocities
-    /// without them.
+    /// The impulses along normal and tangent that the contact law requires, and their change, by the velocities
+    /// with the impulses so far: what they lack along the normal, and the slip along the tangent.
     #[inline(always)]
-    fn impulses(&self, lack: f64, slip: f64) -> [f64; 2] {
-        if lack <= 0.0 {
-            return [0.0; 2];
+    fn impulses(&self, [push, rub]: [f64; 2], lack: f64, slip: f64) -> [[f64; 2]; 2] {
+        let whole = (self.nn * push + self.nt * rub) + lack;
+        if whole <= 0.0 {
+            return [[0.0; 2], [-push, -rub]];
         }
         let [tt, nt, nn] = self.stick;
-        let push = tt * lack + nt * slip;
-        let rub = -(nt * lack + nn * slip);
-        if rub.abs() <= self.friction * push {
-            return [push, rub];
+        let change = [tt * lack + nt * slip, -(nt * lack + nn * slip)];
+        let asked = [push + change[0], rub + change[1]];
+        if asked[1].abs() <= self.friction * asked[0] {
+            return [asked, change];
         }
         // It slides: the impulse lies on the side of the friction cone opposite to the sliding.
-        self.slide[usize::from(rub > 0.0)].map(|per| per * lack)
+        let asked = self.slide[usize::from(asked[1] > 0.0)].map(|per| per * whole);
+        [asked, [asked[0] - push, asked[1] - rub]]
     }
 }
 
@@ -101,6 +101,13 @@ impl SolverPoint {
         }
     }
 
+    /// Starts from the impulses of its hold, with its least velocity.
+    pub fn start_from(&mut self, hold: &Hold) {
+        self.least = hold.least;
+        self.impulses = hold.impulses;
+        self.swept = hold.impulses;
+    }
+
     #[inline(always)]
     pub fn push(&self, [push, rub]: [f64; 2], velocities: &mut [Four]) {
         let [normal, tangent] = &self.rows;
@@ -116,15 +123,13 @@ impl SolverPoint {
     #[inline(always)]
     pub fn solve(&mut self, velocities: &mut [Four]) {
         let both = self.tiles.map(|tile| &velocities[tile]);
-        let [push, rub] = self.impulses;
-        let Response { nn, nt, tt, .. } = self.response;
-        let lack = self.least - along(&self.rows[0], both) + nn * push + nt * rub;
+        let lack = self.least - along(&self.rows[0], both);
         if lack <= 0.0 && self.impulses == [0.0; 2] {
             return;
         }
-        let slip = along(&self.rows[1], both) - nt * push - tt * rub;
-        let asked = self.response.impulses(lack, slip);
-        self.push([asked[0] - push, asked[1] - rub], velocities);
+        let slip = along(&self.rows[1], both);
+        let [asked, change] = self.response.impulses(self.impulses, lack, slip);
+        self.push(change, velocities);
         self.impulses = asked;
     }
 

@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-/// A value of each tile; one or two need no allocation.
-pub type Each<T> = SmallVec<[T; 2]>;
+/// A value of each tile; up to four need no allocation.
+pub type Each<T> = SmallVec<[T; 4]>;
 /// A value of each point of contact.
-pub type Points<T> = SmallVec<[T; 4]>;
+pub type Points<T> = SmallVec<[T; 8]>;

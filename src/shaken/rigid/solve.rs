@@ -24,12 +24,11 @@
 
 use nalgebra::Vector3;
 
-use super::clusters::{clusters, from_both_halves};
+use super::clusters::{Cluster, Clusters, from_both_halves};
 use super::hold::Hold;
 use super::pivot::by_pivots;
 use super::point::{SolverPoint, four};
 use super::rest::{Four, Rest, RestPoint};
-use super::short::{Each, Points};
 use tiles::potential::simd::Level;
 use tiles::potential::simd::lanes::{Lanes, Task};
 
@@ -48,107 +47,196 @@ const MOMENTUM: f64 = 0.85;
 /// impulses are stored in the holds; the solver starts from the stored ones. Sweeps end when the
 /// velocities are known to `error` (m/s), judged by how fast they converge. `rests` are the points at
 /// which tiles lie on the table.
+#[cfg(test)]
 pub fn hold_back(
     inverse: &[Vector3<f64>],
     velocities: &mut [Vector3<f64>],
     (holds, rests): (&mut [Hold], &mut [Rest]),
     [friction, error]: [f64; 2],
 ) -> bool {
-    if holds.is_empty() && rests.is_empty() {
-        return true;
-    }
-    let law = [friction, error];
-    let mut local: Each<usize> = velocities.iter().map(|_| usize::MAX).collect();
-    if velocities.len() == 1 || (velocities.len() == 2 && rests.is_empty()) {
-        let all: Points<usize> = (0..holds.len()).collect();
-        let lying: Points<usize> = (0..rests.len()).collect();
-        let points = ([&all[..], &lying[..]], &mut local[..]);
-        return hold_cluster(inverse, velocities, (holds, rests), points, law);
-    }
-    let mut is_found = true;
-    for (cluster, lying) in clusters(velocities.len(), holds, rests) {
-        let points = ([&cluster[..], &lying[..]], &mut local[..]);
-        is_found &= hold_cluster(inverse, velocities, (holds, rests), points, law);
-    }
-    is_found
+    let mut solver = Solver::default();
+    solver.prepare(inverse.len(), (holds, rests), friction);
+    solver.hold_back(inverse, velocities, (holds, rests), error)
 }
 
-/// The same for the points of one cluster, by their indices: of contact, and on the table. `local` has
-/// room for a number of each tile.
-fn hold_cluster(
-    inverse: &[Vector3<f64>],
-    velocities: &mut [Vector3<f64>],
-    (holds, rests): (&mut [Hold], &mut [Rest]),
-    ([cluster, lying], local): ([&[usize]; 2], &mut [usize]),
-    [friction, error]: [f64; 2],
-) -> bool {
-    let is_right = |k: &usize| holds[*k].rate(velocities) >= holds[*k].least - error;
-    if lying.is_empty() && cluster.iter().all(is_right) {
-        cluster.iter().for_each(|k| holds[*k].impulses = [0.0; 2]);
-        return true;
+/// The solver of a set of points: what it makes of them is kept, as they are often solved for several times.
+#[derive(Default)]
+pub struct Solver {
+    friction: f64,
+    clusters: Clusters,
+    /// What is made of each cluster, with room for more.
+    prepared: Vec<Prepared>,
+    /// The number of each tile in its cluster.
+    local: Vec<usize>,
+}
+
+impl Solver {
+    /// Prepares for points of this many tiles.
+    pub fn prepare(&mut self, tiles: usize, (holds, rests): (&[Hold], &[Rest]), friction: f64) {
+        self.friction = friction;
+        self.clusters.find(tiles, holds, rests);
+        let count = self.clusters.found().len();
+        if self.prepared.len() < count {
+            self.prepared.resize_with(count, Prepared::default);
+        }
+        for it in &mut self.prepared[..count] {
+            it.is_made = false;
+        }
+        self.local.resize(tiles, usize::MAX);
     }
-    // The cluster's own tiles in a row.
-    let mut tiles: Each<usize> = Each::new();
-    let touching = cluster.iter().flat_map(|k| holds[*k].tiles).flatten();
-    for tile in touching.chain(lying.iter().map(|k| rests[*k].tile)) {
-        if tiles.get(local[tile]) != Some(&tile) {
-            local[tile] = tiles.len();
-            tiles.push(tile);
+
+    /// Changes the velocities by the impulses of all points; returns whether they were found. The points are
+    /// those that were prepared for, with other impulses or least velocities. The impulses are stored in the
+    /// holds; the solver starts from the stored ones. Sweeps end when the velocities are known to `error`
+    /// (m/s), judged by how fast they converge. `rests` are the points at which tiles lie on the table.
+    pub fn hold_back(
+        &mut self,
+        inverse: &[Vector3<f64>],
+        velocities: &mut [Vector3<f64>],
+        (holds, rests): (&mut [Hold], &mut [Rest]),
+        error: f64,
+    ) -> bool {
+        let mut is_found = true;
+        for (cluster, prepared) in self.clusters.found().iter().zip(&mut self.prepared) {
+            let is_right = |k: &usize| holds[*k].rate(velocities) >= holds[*k].least - error;
+            if cluster.lying.is_empty() && cluster.points.iter().all(is_right) {
+                for k in &cluster.points {
+                    holds[*k].impulses = [0.0; 2];
+                }
+                continue;
+            }
+            if prepared.is_made {
+                prepared.start_from(holds);
+            } else {
+                prepared.make(
+                    cluster,
+                    (holds, rests),
+                    inverse,
+                    self.friction,
+                    &mut self.local,
+                );
+            }
+            is_found &= prepared.solve(cluster, velocities, (holds, rests), error);
+        }
+        is_found
+    }
+}
+
+/// A cluster with the data of the solver.
+#[derive(Default)]
+struct Prepared {
+    is_made: bool,
+    /// Its tiles in a row, with the inverse roots of their masses.
+    tiles: Vec<usize>,
+    roots: Vec<Vector3<f64>>,
+    /// Its points by their indices, in the order of their solution.
+    order: Vec<usize>,
+    points: Vec<SolverPoint>,
+    /// The numbers of the tiles of its points on the table.
+    under: Vec<usize>,
+    rests: Vec<RestPoint>,
+    /// The velocities without impulses, with them, before and after the last sweep.
+    free: Vec<Four>,
+    velocities: Vec<Four>,
+    before: Vec<Four>,
+    swept: Vec<Four>,
+}
+
+impl Prepared {
+    fn make(
+        &mut self,
+        Cluster { points, lying }: &Cluster,
+        (holds, rests): (&[Hold], &[Rest]),
+        inverse: &[Vector3<f64>],
+        friction: f64,
+        local: &mut [usize],
+    ) {
+        self.tiles.clear();
+        let touching = points.iter().flat_map(|k| holds[*k].tiles).flatten();
+        for tile in touching.chain(lying.iter().map(|k| rests[*k].tile)) {
+            if self.tiles.get(local[tile]) != Some(&tile) {
+                local[tile] = self.tiles.len();
+                self.tiles.push(tile);
+            }
+        }
+        let roots = self.tiles.iter().map(|tile| inverse[*tile].map(f64::sqrt));
+        self.roots.clear();
+        self.roots.extend(roots);
+        self.order.clear();
+        from_both_halves(points, &mut self.order);
+        let point = |k: &usize| {
+            // The part of a row that is of no tile is zero, so it can be assigned to any.
+            let [first, second] = holds[*k].tiles.map(|it| it.map(|tile| local[tile]));
+            let second = second.or(first).unwrap_or(0);
+            let tiles = [first.unwrap_or(second), second];
+            SolverPoint::new(&holds[*k], tiles, &self.roots, friction)
+        };
+        self.points.clear();
+        self.points.extend(self.order.iter().map(point));
+        self.under.clear();
+        self.under
+            .extend(lying.iter().map(|k| local[rests[*k].tile]));
+        self.is_made = true;
+    }
+
+    /// Starts from the impulses of points that have not changed otherwise.
+    fn start_from(&mut self, holds: &[Hold]) {
+        for (k, point) in self.order.iter().zip(&mut self.points) {
+            point.start_from(&holds[*k]);
         }
     }
-    let roots = tiles.iter().map(|tile| inverse[*tile].map(f64::sqrt));
-    let roots: Each<_> = roots.collect();
-    let point = |k: &usize| {
-        // The part of a row that is of no tile is zero, so it can be assigned to any.
-        let [first, second] = holds[*k].tiles.map(|it| it.map(|tile| local[tile]));
-        let second = second.or(first).unwrap_or(0);
-        let tiles = [first.unwrap_or(second), second];
-        SolverPoint::new(&holds[*k], tiles, &roots, friction)
-    };
-    let cluster = from_both_halves(cluster);
-    let mut points: Points<SolverPoint> = cluster.iter().map(point).collect();
-    let lie = |k: &usize| {
-        let tile = local[rests[*k].tile];
-        RestPoint::new(&rests[*k], tile, &roots[tile])
-    };
-    let mut lie: Vec<RestPoint> = lying.iter().map(lie).collect();
-    let own = tiles.iter().zip(&roots);
-    let own = own.map(|(tile, root)| four(velocities[*tile].component_div(root)));
-    let free: Each<Four> = own.collect();
-    let mut own = free.clone();
-    let mut sweep = |own: &mut Each<Four>, points: &mut Points<SolverPoint>| {
+
+    fn solve(
+        &mut self,
+        cluster: &Cluster,
+        velocities: &mut [Vector3<f64>],
+        (holds, rests): (&mut [Hold], &mut [Rest]),
+        error: f64,
+    ) -> bool {
+        let lie = cluster.lying.iter().zip(&self.under);
+        self.rests.clear();
+        self.rests
+            .extend(lie.map(|(k, tile)| RestPoint::new(&rests[*k], *tile, &self.roots[*tile])));
+        let own = self.tiles.iter().zip(&self.roots);
+        let own = own.map(|(tile, root)| four(velocities[*tile].component_div(root)));
+        self.free.clear();
+        self.free.extend(own);
+        self.velocities.clone_from(&self.free);
         let solution = Solution {
-            roots: &roots,
-            velocities: own,
-            points,
-            rests: &mut lie,
+            roots: &self.roots,
+            velocities: &mut self.velocities,
+            before: &mut self.before,
+            swept: &mut self.swept,
+            points: &mut self.points,
+            rests: &mut self.rests,
             error,
         };
-        Level::best().run(solution).is_some()
-    };
-    let mut is_found = sweep(&mut own, &mut points);
-    if !is_found
-        && lying.is_empty()
-        && points.len() <= PIVOTED
-        && let Some(impulses) = by_pivots(&points, &free)
-    {
-        own = free;
-        for (point, impulses) in points.iter_mut().zip(impulses) {
-            point.impulses = impulses;
-            point.push(impulses, &mut own);
+        let mut is_found = Level::best().run(solution).is_some();
+        if !is_found
+            && self.rests.is_empty()
+            && self.points.len() <= PIVOTED
+            && let Some(impulses) = by_pivots(&self.points, &self.free)
+        {
+            self.velocities.clone_from(&self.free);
+            for (point, impulses) in self.points.iter_mut().zip(impulses) {
+                point.impulses = impulses;
+                point.push(impulses, &mut self.velocities);
+            }
+            let mut points = self.points.iter();
+            is_found = points.all(|it| it.obeys(&self.velocities, error));
         }
-        is_found = points.iter().all(|it| it.obeys(&own, error));
+        for (k, point) in self.order.iter().zip(&self.points) {
+            holds[*k].impulses = point.impulses;
+        }
+        for (k, point) in cluster.lying.iter().zip(&self.rests) {
+            rests[*k].impulse = point.impulse.into();
+        }
+        let own = self.tiles.iter().zip(&self.velocities).zip(&self.roots);
+        for ((tile, [x, y, turn, _]), root) in own {
+            velocities[*tile] = Vector3::new(*x, *y, *turn).component_mul(root);
+        }
+        is_found
     }
-    for (k, point) in cluster.iter().zip(&points) {
-        holds[*k].impulses = point.impulses;
-    }
-    for (k, point) in lying.iter().zip(&lie) {
-        rests[*k].impulse = point.impulse.into();
-    }
-    for ((tile, [x, y, turn, _]), root) in tiles.iter().zip(own).zip(&roots) {
-        velocities[*tile] = Vector3::new(x, y, turn).component_mul(root);
-    }
-    is_found
 }
 
 /// Solves for all points of a cluster whose masses have these inverse roots; its result is the number
@@ -156,6 +244,9 @@ fn hold_cluster(
 struct Solution<'a> {
     roots: &'a [Vector3<f64>],
     velocities: &'a mut [Four],
+    /// Room for the velocities before and after a sweep.
+    before: &'a mut Vec<Four>,
+    swept: &'a mut Vec<Four>,
     points: &'a mut [SolverPoint],
     rests: &'a mut [RestPoint],
     error: f64,
@@ -169,6 +260,8 @@ impl Task for Solution<'_> {
         let Self {
             roots,
             velocities,
+            before,
+            swept,
             points,
             rests,
             error,
@@ -179,8 +272,10 @@ impl Task for Solution<'_> {
         for point in rests.iter() {
             point.push(point.impulse, velocities);
         }
-        let mut before = Each::from_slice(velocities);
-        let mut swept = before.clone();
+        for it in [&mut *before, &mut *swept] {
+            it.clear();
+            it.extend_from_slice(velocities);
+        }
         let mut last = f64::INFINITY;
         for sweep in 0..SWEEPS {
             for point in points.iter_mut() {
@@ -192,21 +287,21 @@ impl Task for Solution<'_> {
             // Nearly redundant points may keep correcting each other, so the change over a whole
             // sweep counts.
             let [mut size, mut fastest] = [0.0; 2];
-            for ((now, before), root) in velocities.iter().zip(&before).zip(roots) {
+            for ((now, before), root) in velocities.iter().zip(&*before).zip(roots) {
                 let [x, y, turn] = [0, 1, 2].map(|k| now[k] - before[k]);
                 let square = x * x + y * y + turn * turn;
                 size += square;
                 fastest = f64::max(fastest, square * root.x * root.x);
             }
             // If each sweep changes them by a share of the one before, this much is still to come.
-            let share = (size / last).sqrt().min(SLOWEST);
-            let to_come = 1.0 / (1.0 - share);
+            let share = (size / last).sqrt();
+            let to_come = 1.0 / (1.0 - share.min(SLOWEST));
             if fastest * to_come * to_come < error * error {
                 return Some(sweep + 1);
             }
             if sweep + PLAIN < SWEEPS {
-                let share = (size / last).sqrt().min(MOMENTUM);
-                for (now, swept) in velocities.iter_mut().zip(&mut swept) {
+                let share = share.min(MOMENTUM);
+                for (now, swept) in velocities.iter_mut().zip(&mut *swept) {
                     for (now, swept) in now.iter_mut().zip(swept) {
                         let change = *now - *swept;
                         *swept = *now;
@@ -335,6 +430,46 @@ mod tests {
         }
     }
 
+    /// Four squares in a block that fly at each other. Each two touch along whole edges, with the corners of both
+    /// at the same places but for rounding.
+    #[test]
+    fn pivots_solve_for_points_that_are_nearly_the_same() {
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        let inertia = 0.1 * SIDE * SIDE / 6.0;
+        let inverse = Vector3::new(10.0, 10.0, 1.0 / inertia);
+        let roots = [inverse.map(f64::sqrt); 4];
+        let centre = |tile: usize| Vector2::new((tile % 2) as f64, (tile / 2) as f64) * SIDE;
+        for friction in [0.1, 0.3, 1.0].repeat(200) {
+            let mut even = || rng.random::<f64>() - 0.5;
+            let mut points = Vec::new();
+            for [one, other] in [[0, 1], [2, 3], [0, 2], [1, 3]] {
+                for end in [-0.5, -0.5, 0.5, 0.5] {
+                    let axis = (centre(other) - centre(one)) / SIDE;
+                    let along = Vector2::new(-axis.y, axis.x);
+                    let point = (centre(one) + centre(other)) * 0.5 + along * (end * SIDE);
+                    let axis = (axis + along * (1e-9 * even()), TurnsWith::Behind);
+                    let hold = Hold::new([Some(one), Some(other)], point, axis, 0.0, centre);
+                    points.push(SolverPoint::new(&hold, [one, other], &roots, friction));
+                }
+            }
+            let free = [0, 1, 2, 3].map(|tile| {
+                let inwards = Vector2::new(0.5, 0.5) * SIDE - centre(tile);
+                four(Vector3::new(
+                    inwards.x + 0.2 * even(),
+                    inwards.y + 0.2 * even(),
+                    even(),
+                ))
+            });
+            let impulses = by_pivots(&points, &free).unwrap();
+            let mut now = free;
+            for (point, impulses) in points.iter_mut().zip(impulses) {
+                point.impulses = impulses;
+                point.push(impulses, &mut now);
+            }
+            assert!(points.iter().all(|it| it.obeys(&now, 1e-9)), "{friction}");
+        }
+    }
+
     #[test]
     fn a_block_of_tiles_is_held_in_few_sweeps() {
         let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
@@ -369,6 +504,8 @@ mod tests {
                     Level::best().run(Solution {
                         roots: &roots,
                         velocities: &mut scaled.clone(),
+                        before: &mut Vec::new(),
+                        swept: &mut Vec::new(),
                         points: &mut points,
                         rests: &mut [],
                         error: ERROR,

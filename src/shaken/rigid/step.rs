@@ -10,7 +10,6 @@ use super::motion::{State, Unsolved, Way, put_right, put_right_held};
 use super::near::Touch;
 use super::rest::{GRAVITY, Rest};
 use super::short::Each;
-use super::solve::hold_back;
 
 /// A step that ends in an overlap which was not foreseen, or by whose error contact gives energy, is repeated
 /// with half the time, this often at most.
@@ -156,7 +155,7 @@ impl<W: World> Island<'_, W> {
     /// slid on the table in the first half of the step slides in the same direction in the second, so
     /// that the step is symmetric in time; unless this would turn its sliding round.
     fn stop(
-        &self,
+        &mut self,
         next: &mut State,
         way: &[Vector3<f64>],
         (holds, rests): (&mut [Hold], Vec<Rest>),
@@ -164,20 +163,22 @@ impl<W: World> Island<'_, W> {
         h: f64,
     ) -> Result<Vec<Rest>, Unsolved> {
         // The next step may be longer: it starts with these velocities, and must not take errors for a bounce.
-        let law = self.law(h.max(next.unhurried));
+        let [friction, error] = self.law(h.max(next.unhurried));
         let mut now = self.rests(inverse, 0.5 * h);
         for (now, first) in now.iter_mut().zip(&rests) {
             now.impulse = first.impulse;
             now.is_given = first.slides();
         }
+        let solver = &mut self.solver;
+        solver.prepare(inverse.len(), (holds, &now), friction);
         if now.is_empty() {
             let held = (holds, &mut now[..]);
-            let is_found = hold_back(inverse, &mut next.velocities, held, law);
+            let is_found = solver.hold_back(inverse, &mut next.velocities, held, error);
             return is_found.then_some(now).ok_or(Unsolved);
         }
         let free = next.velocities.clone();
         loop {
-            if !hold_back(inverse, &mut next.velocities, (holds, &mut now), law) {
+            if !solver.hold_back(inverse, &mut next.velocities, (holds, &mut now), error) {
                 return Err(Unsolved);
             }
             let is_turned = |it: &Rest| {

@@ -14,7 +14,6 @@ use super::island::{Island, Masses};
 use super::motion::{Common, fastest};
 use super::near::at_rim;
 use super::short::Each;
-use super::solve::hold_back;
 
 /// Tiles rest relative to each other if their speeds differ by less than this many times the error of
 /// velocities.
@@ -62,8 +61,10 @@ impl<W: World> Island<'_, W> {
         });
         let mut change: Each<Vector3<f64>> = change.collect();
         let mut holds = self.last_holds(h);
-        let law = [FRICTION * laws.friction, error];
-        let is_held = hold_back(inverse, &mut change, (&mut holds, &mut []), law);
+        let friction = FRICTION * laws.friction;
+        let solver = &mut self.solver;
+        solver.prepare(change.len(), (&holds, &[]), friction);
+        let is_held = solver.hold_back(inverse, &mut change, (&mut holds, &mut []), error);
         if !is_held || !self.are_slow(&change, AT_REST * error) {
             return false;
         }

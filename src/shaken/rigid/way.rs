@@ -3,13 +3,13 @@
 use nalgebra::Vector3;
 
 use super::World;
-use super::hold::Hold;
+use super::hold::{Hold, Move};
 use super::island::{Island, PRECISE};
 use super::margins::Margins;
 use super::motion::{State, Unsolved, Way, closes};
 use super::rest::Rest;
 use super::short::{Each, Points};
-use super::solve::hold_back;
+use super::solve::Solver;
 
 /// The relative error of the travel of touching tiles in a step.
 const TRAVEL_ERROR: f64 = 0.01;
@@ -22,10 +22,23 @@ impl<W: World> Island<'_, W> {
     /// The mean velocities in a step, the points that last with their impulses, and the length (s) of
     /// the step: at most `longest`, and shorter if touching tiles would travel too far or a gap closes.
     pub(super) fn way(
+        &mut self,
+        state: &State,
+        inverse: &[Vector3<f64>],
+        longest: f64,
+    ) -> Result<Way, Unsolved> {
+        let mut solver = std::mem::take(&mut self.solver);
+        let way = self.search(state, inverse, longest, &mut solver);
+        self.solver = solver;
+        way
+    }
+
+    fn search(
         &self,
         state: &State,
         inverse: &[Vector3<f64>],
         mut longest: f64,
+        solver: &mut Solver,
     ) -> Result<Way, Unsolved> {
         let now = self.time_to_travel(&state.velocities, &state.holds);
         let mut h = longest.min(now);
@@ -44,32 +57,31 @@ impl<W: World> Island<'_, W> {
             hold.gap <= touched && hold.rate(&state.velocities) <= *slow
         };
         let mut lasts: Points<bool> = state.holds.iter().zip(&slow).map(is_lasting).collect();
-        let mut forces: Points<[f64; 2]> = state.holds.iter().map(|hold| hold.forces).collect();
+        let lasting = state.holds.iter().zip(&lasts).filter(|it| *it.1);
+        let mut holds: Vec<Hold> = lasting.map(|it| *it.0).collect();
+        let mut is_new = true;
         // The longest step known to travel too little, the shortest known to travel too far, and the last one
         // with its pace.
         const UNKNOWN: [f64; 2] = [0.0, f64::INFINITY];
         let (mut bounds, mut known) = (UNKNOWN, (0.0, 1.0 / now));
+        // Tiles turn much as they did.
+        let mut guess = state.velocities.clone();
         for _ in 0..SEARCHES {
-            let mut holds = Vec::new();
-            for ((hold, forces), _) in state
-                .holds
-                .iter()
-                .zip(&forces)
-                .zip(&lasts)
-                .filter(|it| *it.1)
-            {
-                let mut hold = *hold;
-                hold.impulses = forces.map(|force| force * 0.5 * h);
-                holds.push(hold);
-            }
             let mut rests = self.rests(inverse, 0.5 * h);
             for (rest, rub) in rests.iter_mut().zip(&state.rubs) {
                 rest.impulse = rub * (0.5 * h);
             }
-            let way = self.forecast(state, (&mut holds, &mut rests), inverse, h)?;
-            let solved = forces.iter_mut().zip(&lasts).filter(|it| *it.1);
-            for ((forces, _), hold) in solved.zip(&holds) {
-                *forces = hold.impulses.map(|impulse| impulse / (0.5 * h));
+            if is_new {
+                solver.prepare(inverse.len(), (&holds, &rests), self.laws.friction);
+                is_new = false;
+            }
+            for hold in &mut holds {
+                hold.impulses = hold.forces.map(|force| force * 0.5 * h);
+            }
+            let points = (&mut holds[..], &mut rests[..]);
+            let way = self.forecast(state, points, inverse, (h, &guess), solver)?;
+            for hold in &mut holds {
+                hold.forces = hold.impulses.map(|impulse| impulse / (0.5 * h));
             }
             // By the velocity in the middle of the step: the step is then as long as the one back from
             // its end, and errors of energy do not add up.
@@ -81,6 +93,7 @@ impl<W: World> Island<'_, W> {
                 if least < most * (1.0 - TRAVEL_ERROR) {
                     let next = time_at_pace(known, (h, pace)).min(longest);
                     known = (h, pace);
+                    guess = way;
                     h = match least < next && next < most {
                         true => next,
                         false => 0.5 * (least + most.min(longest)),
@@ -88,14 +101,15 @@ impl<W: World> Island<'_, W> {
                     continue;
                 }
                 if is_too_far && h > least {
+                    guess = way;
                     h = least;
                     continue;
                 }
             }
+            let moves = moves(&way, h);
             let mut first = h;
-            let mut is_new = false;
             for (k, hold) in state.holds.iter().enumerate() {
-                let gap = hold.gap_after(&way, h, skin);
+                let gap = hold.gap_after(&moves, skin);
                 if lasts[k] || gap >= hold.gap.min(0.0) - rounding {
                     continue;
                 }
@@ -105,6 +119,8 @@ impl<W: World> Island<'_, W> {
                 match closes(hold.gap - 0.5 * touched, u, a) {
                     Some((time, speed)) if speed > slow[k] => first = first.min(time),
                     _ => {
+                        let before = lasts[..k].iter().filter(|it| **it).count();
+                        holds.insert(before, *hold);
                         lasts[k] = true;
                         is_new = true;
                     }
@@ -122,6 +138,7 @@ impl<W: World> Island<'_, W> {
                 h = first;
                 longest = first;
             }
+            guess = way;
             bounds = UNKNOWN;
             known = (0.0, 1.0 / now);
         }
@@ -134,16 +151,17 @@ impl<W: World> Island<'_, W> {
         state: &State,
         (holds, rests): (&mut [Hold], &mut [Rest]),
         inverse: &[Vector3<f64>],
-        h: f64,
+        (h, guess): (f64, &[Vector3<f64>]),
+        solver: &mut Solver,
     ) -> Result<Each<Vector3<f64>>, Unsolved> {
         let free = state.halfway(h);
         // By how much the gaps at the end differ from a linear forecast (m).
-        let bent = |hold: &Hold, way: &[Vector3<f64>]| {
+        let bent = |hold: &Hold, way: &[Vector3<f64>], moves: &[Move]| {
             let linear = hold.gap + h * hold.rate(way);
-            hold.gap_after(way, h, self.margins.skin) - linear
+            hold.gap_after(moves, self.margins.skin) - linear
         };
-        // Tiles turn much as they did.
-        let bends = holds.iter().map(|hold| bent(hold, &state.velocities));
+        let guessed = moves(guess, h);
+        let bends = holds.iter().map(|hold| bent(hold, guess, &guessed));
         let mut bends: Points<f64> = bends.collect();
         for _ in 0..FORECASTS {
             for (hold, bend) in holds.iter_mut().zip(&bends) {
@@ -151,13 +169,15 @@ impl<W: World> Island<'_, W> {
                 hold.least = -(hold.gap.max(0.0) + bend) / h;
             }
             let mut way = free.clone();
-            if !hold_back(inverse, &mut way, (holds, rests), self.law(h)) {
+            let [_, error] = self.law(h);
+            if !solver.hold_back(inverse, &mut way, (holds, rests), error) {
                 return Err(Unsolved);
             }
+            let moves = moves(&way, h);
             let mut change: f64 = 0.0;
             for (hold, bend) in holds.iter().zip(&mut bends) {
                 let linear = hold.gap + h * hold.rate(&way);
-                let now = bent(hold, &way);
+                let now = bent(hold, &way, &moves);
                 if hold.is_held() || linear + now < hold.gap.min(0.0) {
                     change = change.max((now - *bend).abs());
                     *bend = now;
@@ -169,6 +189,11 @@ impl<W: World> Island<'_, W> {
         }
         Err(Unsolved)
     }
+}
+
+/// How each tile moves in a time (s).
+fn moves(way: &[Vector3<f64>], h: f64) -> Each<Move> {
+    way.iter().map(|way| Move::new(way, h)).collect()
 }
 
 /// The time after which a way is done whose mean pace (1/s) depends on the time (s) linearly, by two

@@ -11,19 +11,19 @@ use super::drive::Drive;
 use super::neighbours::Neighbours;
 use super::settings::TableSettings;
 use crate::rigid::{
-    Account, Island, Laws, Margins, Mover, NearPair, Pose, Rider, SHORTEST_TRIED, Two, Winds,
-    Within, World, fastest, longest_step, on_the_table, relative, rim_room,
+    Account, Island, Laws, Margins, Mover, NearPair, Pose, Rider, SHORTEST_TRIED, Solver, Two,
+    Winds, Within, World, fastest, longest_step, on_the_table, relative, rim_room,
 };
 use tiles::configuration::Configuration;
 use tiles::parallel;
 
 /// Islands per task of a thread.
 const BATCH: usize = 8;
-/// Islands are shared among threads if they and their pairs are this many: for less than some hundred
-/// microseconds of work, threads wait longer than they work.
-const WORTH_SHARING: usize = 64;
+/// Islands are shared among threads if they and their pairs are this many: with fewer, threads wait longer than
+/// they work.
+const WORTH_SHARING: usize = 512;
 /// Pairs apart per task of a thread.
-const APART_TOGETHER: usize = 64;
+const APART_TOGETHER: usize = 512;
 /// Usual travel of a tile in a step, as a share of the distance that counts as near; faster tiles are
 /// near each other from farther on.
 const SHARE_OF_NEAR: f64 = 0.25;
@@ -84,6 +84,8 @@ pub struct Stepper<'a> {
     margins: Margins,
     least_near: f64,
     scratch: Scratch,
+    /// Solvers of earlier islands, kept to save allocating what they hold.
+    solvers: Vec<Solver>,
 }
 
 /// Vectors that each step fills anew, kept to save allocating them.
@@ -176,6 +178,7 @@ impl<'a> Stepper<'a> {
             margins: crowd.margins(),
             least_near: nears.fold(f64::INFINITY, f64::min),
             scratch: Scratch::default(),
+            solvers: Vec::new(),
         };
         stepper.prepare(0.0, &mut Scratch::default());
         stepper
@@ -491,6 +494,7 @@ impl<'a> Stepper<'a> {
                     account: Account::default(),
                     steps: 0,
                     is_solved: true,
+                    solver: self.solvers.pop().unwrap_or_default(),
                 });
             }
             let island = number[top];
@@ -526,6 +530,7 @@ impl<'a> Stepper<'a> {
                     step: self.settings.step * SHORTEST_TRIED,
                 });
             }
+            self.solvers.push(island.solver);
             for (rider, k) in island.riders.into_iter().zip(members) {
                 self.riders[k] = rider;
             }
