@@ -68,6 +68,8 @@ use limits::Limits;
 pub(in crate::potential) use near::exact;
 use nearby::Nearby;
 pub(in crate::potential) use series::magnitudes_of;
+#[cfg(test)]
+pub(in crate::potential) use series::series as series_of;
 pub(in crate::potential) use single::Single;
 use sum::Sum;
 

@@ -8,6 +8,7 @@ use super::near::exact;
 use super::{Alike, Body, BodyPotential, Pairs};
 use crate::configuration::Configuration;
 use crate::potential::far::PairEnergy;
+use crate::potential::far::derivatives::{AngleDerivatives, AtAngle, AtPlace, Derivatives};
 use crate::potential::far::rows::{Facing, Known, Lane, Several};
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task};
@@ -18,7 +19,8 @@ pub(in crate::potential) struct Single<'a> {
     pub numbers: [usize; 2],
     pub first: Body,
     pub second: Body,
-    /// Their energy, if they are so far apart that the series has it.
+    /// Their energy by all terms of the series that are summed, and the same if it is exact so far apart.
+    pub series: PairEnergy,
     pub far: Option<PairEnergy>,
     pairs: &'a Pairs,
     coefficients: &'a RefCell<SharedSeries>,
@@ -29,6 +31,9 @@ pub(in crate::potential) struct Single<'a> {
 struct SharedSeries {
     still: Known,
     turned: Known,
+    /// Derivatives at the former, of this many terms.
+    derivatives: AngleDerivatives,
+    terms: usize,
 }
 
 impl Single<'_> {
@@ -45,10 +50,10 @@ impl Single<'_> {
         let ways = places.map(|place| place - self.first.position);
         let far = &self.pairs.far;
         if ways.iter().all(|way| way.norm_squared() >= far.near()) {
-            let complex = |v: Vector2<f64>| Complex::new(v.x, v.y);
             let SharedSeries {
                 still,
                 turned: other,
+                ..
             } = &mut *self.coefficients.borrow_mut();
             let known = match turn == 0.0 {
                 true => still,
@@ -67,6 +72,32 @@ impl Single<'_> {
         }
         places.map(|position| exact(&self.first, &Body { position, ..turned }))
     }
+
+    /// Second and third derivatives of this many terms of the series.
+    pub fn derivatives(&self, terms: usize) -> Derivatives {
+        let axis = complex(self.first.direction);
+        let known = &mut *self.coefficients.borrow_mut();
+        if known.terms < terms {
+            Level::best().run(AtAngle {
+                series: &self.pairs.far.series,
+                turn: complex(self.second.direction) * axis.conj(),
+                terms,
+                found: &mut known.derivatives,
+            });
+            known.terms = terms;
+        }
+        Level::best().run(AtPlace {
+            coefficients: &known.derivatives,
+            terms,
+            axis,
+            way: complex(self.second.position - self.first.position),
+            moments: self.first.moment * self.second.moment,
+        })
+    }
+}
+
+fn complex(v: Vector2<f64>) -> Complex<f64> {
+    Complex::new(v.x, v.y)
 }
 
 impl BodyPotential {
@@ -82,9 +113,12 @@ impl BodyPotential {
         let coefficients = RefCell::new(SharedSeries {
             still: Known::none(),
             turned: Known::none(),
+            derivatives: AngleDerivatives::NONE,
+            terms: 0,
         });
         for ([first, second], pairs) in self.of_groups() {
             coefficients.borrow_mut().still.forget();
+            coefficients.borrow_mut().terms = 0;
             let turned = second.like.moved([cos, sin], Vector2::zeros());
             if skipped(&first.like, &turned) {
                 continue;
@@ -102,6 +136,7 @@ impl BodyPotential {
                     numbers,
                     first: body(first, from, i, &first.like),
                     second: body(second, place, j, &turned),
+                    series: lane.pair,
                     far: (lane.square >= pairs.far.near()).then_some(lane.pair),
                     pairs,
                     coefficients: &coefficients,

@@ -2,9 +2,11 @@
 //!
 //! * [`multipole`]: the series of two magnets and its coefficients at an angle between them;
 //! * [`terms`]: its sum for one moving magnet and several fixed ones;
+//! * [`derivatives`]: the second and third derivatives of two magnets;
 //! * [`rows`]: the sum over two groups of magnets that are alike;
 //! * this file: how many terms a distance needs.
 
+pub mod derivatives;
 pub mod group;
 pub mod multipole;
 pub mod rows;

@@ -234,6 +234,40 @@ impl Multipole {
         bisected(low, high, 40, is_much)[1]
     }
 
+    /// The powers of `turn` = e^(i beta) that the first terms have, in the order of l', and their number. Others are
+    /// finite.
+    #[inline(always)]
+    pub fn turns(
+        &self,
+        turn: Complex<f64>,
+        terms: usize,
+    ) -> ([Complex<f64>; MOST_TERMS + 1], usize) {
+        let step = turn * turn;
+        // Coefficients of later terms in the last vector remain to be computed.
+        let mut turns = [turn; MOST_TERMS + 1];
+        if self.least == 0 {
+            turns[0] = Complex::new(1.0, 0.0);
+        }
+        // Term k has the orders up to k, or up to k + 1 if the least is 0.
+        let count = terms + 1 - self.least;
+        for j in 1..count {
+            turns[j] = turns[j - 1] * step;
+        }
+        (turns, count)
+    }
+
+    /// The j-th l' that is not negative.
+    #[inline(always)]
+    pub fn order(&self, j: usize) -> f64 {
+        (2 * j + self.least) as f64
+    }
+
+    /// The sums and the differences of T_kll' and T_kl-l' for the j-th l', of all C_kl.
+    #[inline(always)]
+    pub fn with_order(&self, j: usize) -> (&[f64; ROOM], &[f64; ROOM]) {
+        (&self.sums[j], &self.differences[j])
+    }
+
     /// Computes the coefficients of some terms for `turn` = e^(i beta), those for derivatives only
     /// if requested.
     #[inline(always)]
@@ -244,17 +278,8 @@ impl Multipole {
         terms: Range<usize>,
         known: &mut Coefficients,
     ) {
-        let step = turn * turn;
-        // Coefficients of later terms in the last vector remain to be computed.
-        let mut turns = [turn; MOST_TERMS + 1];
-        if self.least == 0 {
-            turns[0] = Complex::new(1.0, 0.0);
-        }
-        // Term k has the orders up to k, or up to k + 1 if the least is 0.
+        let (turns, _) = self.turns(turn, terms.end);
         let more = 1 - self.least;
-        for j in 1..terms.end + more {
-            turns[j] = turns[j - 1] * step;
-        }
         let mut i = index(terms.start, 0) / WIDTH * WIDTH;
         let mut last = 1;
         while i < index(terms.end, 0) {
@@ -272,7 +297,7 @@ impl Multipole {
                 re = l.mul_add(sum, cos, re);
                 im = l.mul_add(difference, sin, im);
                 if SLOPE {
-                    let order = l.splat((2 * j + self.least) as f64);
+                    let order = l.splat(self.order(j));
                     turn_re = l.neg_mul_add(l.mul(sum, order), sin, turn_re);
                     turn_im = l.mul_add(l.mul(difference, order), cos, turn_im);
                 }

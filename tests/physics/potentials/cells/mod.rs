@@ -195,7 +195,8 @@ fn all() -> Vec<Enclosed> {
         centres: vec![[0.44, -0.07, 0.02], [0.47, 0.01, -0.1], [0.6, 0.2, 2.0]],
         value: [0.0, 1e-8],
         gradient: [0.0, 1e-6],
-        hessian: 1e-3,
+        // A cell of no size needs none.
+        hessian: f64::INFINITY,
         width: 1e-7,
         shrinking: vec![(
             [0.46, 0.013, 0.1],
@@ -219,7 +220,7 @@ fn all() -> Vec<Enclosed> {
     let bodies = |name, forms: &'static [MadeOf], inset| Enclosed {
         name,
         tiles: ["NNNS", "NSSS"].map(|code| tile_of(code, inset, forms)),
-        // The Hessian of pairs far from each other is their dipoles'.
+        // A cell of no size needs none.
         hessian: f64::INFINITY,
         gradient: [0.0, 1e-5],
         cells: 400,
@@ -227,9 +228,9 @@ fn all() -> Vec<Enclosed> {
         shrinking: vec![(
             [0.46, 0.013, 0.1],
             [1.0, 1.0, 2.0],
-            // Of second order but for what values and slopes lose, which smaller cells show.
+            // Of third order where it counts once for all pairs, of fourth order in each.
             [2e-3, 4e-4],
-            [8.0, 200.0],
+            [100.0, 700.0],
         )],
         ..standing("", MagnetModel::Cuboid, 0.001, false)
     };

@@ -2,21 +2,20 @@
 //!
 //! Let V be the potential of a face P1 of charge density 1 at the points x of a face P2 that moves, all of
 //! them at least D away; A1, A2 the areas, l the length of the rim of P1. Over P2, the integrals of the
-//! largest n-th directional derivatives of V in the tiles' plane are at most K1, K2 and K3:
+//! largest n-th directional derivatives of V in the tiles' plane are at most K1, K2, K3 and K4:
 //!
 //! * The n-th directional derivative of `1 / r` is at most `n! / r^(n+1)`. The points of a flat face
 //!   that are within R of any point, and no closer than D, cover at most the area `pi (R^2 - D^2)`. So
-//!   the integral over P1 is at most that from D to `F^2 = D^2 + A1 / pi`: `pi ln(F^2 / D^2)`, `4 pi
-//!   (1 / D - 1 / F)` and `6 pi (1 / D^2 - 1 / F^2)`; and the same with P1 and P2 exchanged.
+//!   the integral over P1 is at most that from D to `F^2 = D^2 + A1 / pi`: `2 pi ln(F / D)` and `2 pi n!
+//!   (D^(1-n) - F^(1-n)) / (n - 1)`; and the same with P1 and P2 exchanged.
 //! * Derivatives of V along the face are integrals along its rim, with its outward normal nu: `V_t = -
-//!   int nu_t dl / r`. Across it, -V_n is the solid angle, at most `2 pi`, and the slope of V_n is `int dl
-//!   x r / r^3`. Second derivatives hence are at most `q = int dl / r^2` in the entry along the face,
-//!   and so is the length of the row `(V_tn, V_nn)`; in any direction of the plane they are at most
-//!   `(1 + sqrt 5) / 2` times q, and their slopes as many times `2 int dl / r^3`. Flat faces
-//!   move along themselves: once q. The integrals over P2 as above.
+//!   int nu_t dl / r`. Across it, -V_n is the solid angle, at most `2 pi`. Second derivatives in the tiles'
+//!   plane are at most `int dl / r^2`, as [`rims`](super::rims) has it, and the next ones at most `2 int dl /
+//!   r^3` and `6 int dl / r^4`. The integrals over P2 as above.
 //!
 //! The first kind is the least far away, the second one where faces are close. If faces may meet, only K1
-//! is finite.
+//! is finite. Close discs have those of [`rims`](super::rims), which need X and Y, the integral `int |nu_t| dl`
+//! along the rim of P1 times those of `1 / r^2` and `2 / r^3` over P2.
 
 use std::f64::consts::PI;
 
@@ -35,8 +34,6 @@ pub(super) struct Face {
     /// tiles' plane along the face.
     rim: f64,
     across: f64,
-    /// The largest second derivative in units of q.
-    share: f64,
 }
 
 impl Face {
@@ -53,12 +50,7 @@ impl Face {
                 (along * up, 2.0 * (along + up), across)
             }
         };
-        Self {
-            area,
-            rim,
-            across,
-            share: if body.stands { 1.0 } else { GOLDEN },
-        }
+        Self { area, rim, across }
     }
 
     /// A bound of the energy of unit charges on it and on a copy of itself (m^3), wherever that is: the
@@ -67,30 +59,59 @@ impl Face {
         2.0 * self.area * (PI * self.area).sqrt()
     }
 
-    /// K1, K2 and K3 (m^2, m, 1) of this face and another one at least `distance` (m) away.
-    pub fn limits(&self, other: &Self, distance: f64) -> [f64; 3] {
+    /// The limits of this face and another one at least `distance` (m) away.
+    pub fn limits(&self, other: &Self, distance: f64) -> FaceLimits {
         let touching = 2.0 * PI * other.area + self.across * 2.0 * (PI * other.area).sqrt();
         if distance <= 0.0 {
-            return [touching, f64::INFINITY, f64::INFINITY];
+            return FaceLimits {
+                first: touching,
+                ..FaceLimits::NONE
+            };
         }
-        let d = distance;
-        let far = |area: f64| (d * d + area / PI).sqrt();
-        let rising = |area: f64| PI * 2.0 * libm::log(far(area) / d);
-        let second = |area: f64| 4.0 * PI * (1.0 / d - 1.0 / far(area));
-        let third = |area: f64| 6.0 * PI * (1.0 / (d * d) - 1.0 / far(area).powi(2));
-        let either =
-            |of: &dyn Fn(f64) -> f64| (other.area * of(self.area)).min(self.area * of(other.area));
-        let by_rim = self.share * self.rim;
-        [
-            touching.min(either(&rising)),
-            either(&second).min(by_rim * rising(other.area)),
-            either(&third).min(by_rim * second(other.area)),
-        ]
+        let near = 1.0 / distance;
+        let far = |area: f64| 1.0 / (distance * distance + area / PI).sqrt();
+        // Of 1 / r^(n+1) over a face.
+        let over = |n: i32, area: f64| match n {
+            1 => PI * 2.0 * libm::log(near / far(area)),
+            _ => 2.0 * PI / f64::from(n - 1) * (near.powi(n - 1) - far(area).powi(n - 1)),
+        };
+        let either = |n: i32| {
+            let [own, others] = [self.area, other.area];
+            (others * over(n, own)).min(own * over(n, others))
+        };
+        let [rising, steep] = [1, 2].map(|n| over(n, other.area));
+        FaceLimits {
+            first: touching.min(either(1)),
+            second: (2.0 * either(2)).min(self.rim * rising),
+            third: (6.0 * either(3)).min(self.rim * 2.0 * steep),
+            fourth: (24.0 * either(4)).min(self.rim * 6.0 * over(3, other.area)),
+            x: self.across * rising,
+            y: self.across * 2.0 * steep,
+        }
     }
 }
 
-/// `(1 + sqrt 5) / 2`, the largest eigenvalue of a symmetric matrix of rows (1, 1) and (1, 0).
-const GOLDEN: f64 = 1.618_033_988_749_895;
+/// K1, K2, K3 and K4 (m^2, m, 1, 1/m), X and Y (m, 1).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FaceLimits {
+    pub first: f64,
+    pub second: f64,
+    pub third: f64,
+    pub fourth: f64,
+    pub x: f64,
+    pub y: f64,
+}
+
+impl FaceLimits {
+    const NONE: Self = Self {
+        first: f64::INFINITY,
+        second: f64::INFINITY,
+        third: f64::INFINITY,
+        fourth: f64::INFINITY,
+        x: f64::INFINITY,
+        y: f64::INFINITY,
+    };
+}
 
 /// The distances (m) in the tiles' plane of the two faces of one magnet from those of the other, and
 /// those of their planes, if they are flat.

@@ -22,20 +22,33 @@
 //!                           + n (3 m^2 + 3 m + 1) (v / rho) w^2 + m^3 w^3]
 //! ```
 //!
+//! and so on: with `(n)_i` for the rising factorials, derivative j is at most `sum A_k rho^-n sum_i (n)_i B_ij(m)
+//! (v / rho)^i w^(j-i)`, where B_ij(m) are the r-Stirling numbers, `B_ij = B_(i-1)(j-1) + (m + i) B_i(j-1)`, from
+//! B_00 = 1 (Broder 1984, Discrete Mathematics 49, 241).
+//!
+//! **The form of third order** has second and third derivatives of the first terms only, as many as a distance
+//! needs. What it leaves is a remainder of fourth order, and one of second order of the other terms.
+//!
 //! Term 0 is that of dipoles. The sums fall with rho: they are known at some distances, and hold from each
 //! of these on.
 
 use super::super::apart::Apart;
+use super::Left;
 use crate::potential::bodies::{Body, magnitudes_of};
 use crate::potential::classes::{class_of, shortest};
+use crate::potential::far::multipole::MOST_TERMS;
 
 /// Terms of which A_k is computed, and those that are summed: at the least distance each G_k is at most 0.7
 /// times the one before, up to factors that grow like a power of k, so that the others are nothing.
 const TERMS: usize = 64;
 const ALL: usize = 400;
-/// The least and the largest distance of the sums, in units of s.
+/// The least distance of the sums, and one from which on they are those at this one, in units of s.
 const LEAST: f64 = 1.2;
-const MOST: f64 = 128.0;
+const MOST: f64 = 1024.0;
+/// The form of third order leaves out terms whose share of its second order is less than this, as a share of the
+/// dipoles' energy, for motions over a sixtieth of the distance.
+const LITTLE: f64 = 1e-7;
+const USUAL: f64 = 1.0 / 60.0;
 /// Room for rounding.
 const ROOM: f64 = 1.0 + 1e-9;
 
@@ -48,12 +61,31 @@ pub(super) struct SeriesBounds {
     sums: Vec<Sums>,
 }
 
-/// The sums in the bounds, by ascending powers of v.
+/// The sums in the bounds of a derivative of the order N - 1, by ascending powers of v.
+type Derivative<const N: usize> = [f64; N];
+
+/// The sums in the bounds.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     energy: f64,
-    slope: [f64; 2],
-    third: [f64; 4],
+    slope: Derivative<2>,
+    third: Derivative<4>,
+    fourth: Derivative<5>,
+    /// The number of terms of the form of third order, and the second derivative of the others.
+    terms: usize,
+    omitted: Derivative<3>,
+    /// The energy and the slope of the terms that are never summed.
+    unknown: (f64, Derivative<2>),
+}
+
+/// Bounds of two magnets over a cell.
+pub(super) struct OfSeries {
+    pub apart: Apart,
+    /// The number of terms of the form of third order, and what it leaves if value and gradient are known.
+    pub terms: usize,
+    pub left: Left,
+    /// What the terms that are never summed add.
+    pub unknown: Left,
 }
 
 impl SeriesBounds {
@@ -82,21 +114,42 @@ impl SeriesBounds {
     }
 
     /// For magnets whose centres stay a distance (m) apart, where the second one's moves by at most v (m) and
-    /// turns by at most w, in units of `strength` (J m^3); `None` if that is too close, or very far.
-    pub fn at(&self, distance: f64, [v, w]: [f64; 2], strength: f64) -> Option<Apart> {
+    /// turns by at most w, in units of `strength` (J m^3); `None` if that is too close.
+    pub fn at(&self, distance: f64, [v, w]: [f64; 2], strength: f64) -> Option<OfSeries> {
         let class = class_of(distance.max(0.0)).checked_sub(self.first)?;
-        let sums = self.sums.get(class)?;
+        let sums = &self.sums[class.min(self.sums.len() - 1)];
         let scale = ROOM * strength;
-        let [turning, moving] = sums.slope;
-        let [a, b, c, d] = sums.third;
-        let third = ((d * v + c * w) * v + b * w * w) * v + a * w * w * w;
-        Some(Apart {
-            energy: scale * sums.energy,
-            slope: scale * (moving * v + turning * w),
-            remainder: scale * third / 6.0,
-            is_coarse: false,
+        let fourth = scale * of_motion(&sums.fourth, [v, w]) / 24.0;
+        let omitted = scale * of_motion(&sums.omitted, [v, w]) / 2.0;
+        Some(OfSeries {
+            apart: Apart {
+                energy: scale * sums.energy,
+                slope: scale * of_motion(&sums.slope, [v, w]),
+                remainder: scale * of_motion(&sums.third, [v, w]) / 6.0,
+                is_coarse: false,
+            },
+            terms: sums.terms,
+            left: Left {
+                spread: fourth + omitted,
+                slope: 4.0 * fourth + 2.0 * omitted,
+            },
+            unknown: Left {
+                spread: scale * sums.unknown.0,
+                slope: scale * of_motion(&sums.unknown.1, [v, w]),
+            },
         })
     }
+}
+
+/// The derivative along a motion with the speed v (m) and the turn w.
+fn of_motion<const N: usize>(sums: &Derivative<N>, [v, w]: [f64; 2]) -> f64 {
+    let mut turns = 1.0;
+    let mut all = 0.0;
+    for (i, sum) in sums.iter().enumerate().rev() {
+        all += sum * turns * v.powi(i as i32);
+        turns *= w;
+    }
+    all
 }
 
 impl Sums {
@@ -104,23 +157,42 @@ impl Sums {
     fn new(magnitudes: &[f64], least_turn: f64, [rho, s]: [f64; 2]) -> Self {
         let mut sums = Self::default();
         let inverse = 1.0 / rho;
-        for (k, magnitude) in magnitudes.iter().enumerate() {
-            let (n, m) = ((2 * k + 3) as f64, 2.0 * k as f64 + least_turn);
-            let term = magnitude * inverse.powi(3) * (s * inverse).powi(2 * k as i32);
-            sums.energy += term;
-            sums.slope[0] += m * term;
-            sums.slope[1] += n * inverse * term;
-            let third = [
-                m * m * m,
-                n * (3.0 * m * m + 3.0 * m + 1.0) * inverse,
-                3.0 * n * (n + 1.0) * (m + 1.0) * inverse * inverse,
-                n * (n + 1.0) * (n + 2.0) * inverse * inverse * inverse,
-            ];
-            for (sum, factor) in sums.third.iter_mut().zip(third) {
-                *sum += factor * term;
+        let term = |k: usize| magnitudes[k] * inverse.powi(3) * (s * inverse).powi(2 * k as i32);
+        let mut second = [0.0; 3];
+        for k in (0..magnitudes.len()).rev() {
+            if k + 1 == MOST_TERMS {
+                sums.unknown = (sums.energy, sums.slope);
             }
+            let is_little = of_motion(&second, [USUAL * rho, USUAL]) <= LITTLE * term(0);
+            if k + 1 == MOST_TERMS || (k + 1 < MOST_TERMS && is_little) {
+                (sums.terms, sums.omitted) = (k + 1, second);
+            }
+            let (n, m) = ((2 * k + 3) as f64, 2.0 * k as f64 + least_turn);
+            let term = term(k);
+            sums.energy += term;
+            add(&mut sums.slope, term, [n, m, inverse]);
+            add(&mut second, term, [n, m, inverse]);
+            add(&mut sums.third, term, [n, m, inverse]);
+            add(&mut sums.fourth, term, [n, m, inverse]);
         }
         sums
+    }
+}
+
+/// Adds the derivative of a term with this n and m, at the inverse of rho (1/m).
+fn add<const N: usize>(sums: &mut Derivative<N>, term: f64, [n, m, inverse]: [f64; 3]) {
+    let mut stirling = [0.0; N];
+    stirling[0] = 1.0;
+    for _ in 1..N {
+        for i in (0..N).rev() {
+            let below = if i > 0 { stirling[i - 1] } else { 0.0 };
+            stirling[i] = below + (m + i as f64) * stirling[i];
+        }
+    }
+    let mut rising = term;
+    for (i, (sum, stirling)) in sums.iter_mut().zip(stirling).enumerate() {
+        *sum += rising * stirling;
+        rising *= (n + i as f64) * inverse;
     }
 }
 
@@ -129,7 +201,7 @@ mod tests {
     use nalgebra::Vector2;
 
     use super::super::super::apart::tests::check;
-    use super::super::far::extent;
+    use super::super::far::half_diagonal;
     use super::*;
     use crate::potential::bodies::exact;
     use crate::tile::magnet::Shape;
@@ -160,12 +232,15 @@ mod tests {
             let shape = [Shape::Disc, Shape::Block][k as usize / 3 % 2];
             let first = body(Shape::Disc, Vector2::zeros(), 0.2);
             let second = body(shape, way * r, 0.37 * f64::from(k));
-            let bounds =
-                SeriesBounds::new([&first, &second], [&first, &second].map(|it| extent(it)[0]));
+            let bounds = SeriesBounds::new(
+                [&first, &second],
+                [&first, &second].map(half_diagonal),
+            );
             let centre = second.position - Vector2::new(0.02, 0.01);
             let (turn, half) = (0.02, 0.0004);
             let reach = half + (second.position - centre).norm() * turn;
-            let Some(apart) = bounds.at(r - reach, [reach, turn], MU0_OVER_4PI) else {
+            let Some(OfSeries { apart, .. }) = bounds.at(r - reach, [reach, turn], MU0_OVER_4PI)
+            else {
                 continue;
             };
             let shift = way * half * if k % 2 == 0 { 1.0 } else { -1.0 };
