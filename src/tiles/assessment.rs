@@ -76,15 +76,22 @@ fn pushed_out(energy: &Quadratic, cuts: &Cuts, lever: f64) -> f64 {
     -cut.form.value * product(&energy.gradient, &out) / product(&out, &out)
 }
 
+/// By how much more than the form's losses a cell's shape decides where it is halved: halved by losses alone, cells
+/// about a valley become slivers, whose centres no pathway can follow. (Of the barriers of eight sectors with point
+/// dipoles 39 of 62 are bounded as narrowly as asked without this, 46 of 65 with 1, and 52 of 65 with 3, in fewer
+/// cells.)
+const EVEN: f64 = 3.0;
+
 /// The coordinate that loosens the bound most.
 fn widest(form: &Quadratic, enclosure: &Enclosure, cell: &Cell, lever: f64) -> usize {
     let sizes = [cell.half[0], cell.half[1], lever * cell.half[2]];
     let total: f64 = sizes.iter().sum();
     let losses = form.losses(&cell.half);
     let known = enclosure.low.is_finite();
+    let of_shape = (-enclosure.low).max(EVEN * losses.iter().sum::<f64>());
     let share = |i: usize| {
         if known {
-            losses[i] - enclosure.low * sizes[i] / total
+            losses[i] + of_shape * sizes[i] / total
         } else {
             sizes[i]
         }
