@@ -75,8 +75,7 @@ const GRAZING: (f64, f64) = (0.25, 1e-6);
 /// Room for rounding of the bounds.
 const ROOM: f64 = 1.0 + 1e-9;
 
-/// Units of work for a cell, for a far pair, for a near pair, and for an exact energy: more than they take, as
-/// the list of states of eight sectors with discs is charged 180 core-seconds for 1.8 million cells in 34.
+/// Units of work for a cell, for a term of a pair's series, for a near pair, and for an exact energy.
 const A_CELL: u64 = 200;
 const A_PAIR: u64 = 12;
 const A_NEAR_PAIR: u64 = 150;

@@ -232,10 +232,7 @@ mod tests {
             let shape = [Shape::Disc, Shape::Block][k as usize / 3 % 2];
             let first = body(Shape::Disc, Vector2::zeros(), 0.2);
             let second = body(shape, way * r, 0.37 * f64::from(k));
-            let bounds = SeriesBounds::new(
-                [&first, &second],
-                [&first, &second].map(half_diagonal),
-            );
+            let bounds = SeriesBounds::new([&first, &second], [&first, &second].map(half_diagonal));
             let centre = second.position - Vector2::new(0.02, 0.01);
             let (turn, half) = (0.02, 0.0004);
             let reach = half + (second.position - centre).norm() * turn;
