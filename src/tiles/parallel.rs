@@ -150,14 +150,12 @@ fn size(count: usize) -> usize {
 /// Runs this many parts on all threads; no further part starts once one has failed or was
 /// interrupted.
 fn shared_out(parts: usize, work: &(dyn Fn(usize) + Sync)) {
-    match parts {
-        1 => work(0),
-        // Without waking the thread and waiting for it.
-        _ if threads() == 1 => (0..parts).for_each(work),
-        _ => {
-            let parts = (0..parts).into_par_iter().with_max_len(1);
-            parts.panic_fuse().for_each(work);
-        }
+    // One thread works here, without waking another and waiting for it.
+    if parts == 1 || threads() == 1 {
+        (0..parts).for_each(work);
+    } else {
+        let parts = (0..parts).into_par_iter().with_max_len(1);
+        parts.panic_fuse().for_each(work);
     }
 }
 

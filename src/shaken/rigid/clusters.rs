@@ -3,6 +3,8 @@
 //! A point waits for the one before it if they share a tile. So points from both halves of the list
 //! take turns: the processor works on several at a time.
 
+use petgraph::unionfind::UnionFind;
+
 use super::hold::Hold;
 use super::rest::Rest;
 
@@ -29,9 +31,7 @@ pub struct Cluster {
 pub struct Clusters {
     list: Vec<Cluster>,
     count: usize,
-    /// Of each tile, one of the same cluster: the first tile of a cluster is its own.
-    toward: Vec<usize>,
-    /// The cluster of each first tile.
+    /// The cluster of each tile that stands for one.
     number: Vec<usize>,
 }
 
@@ -39,27 +39,25 @@ impl Clusters {
     /// Finds the clusters of points of this many tiles.
     pub fn find(&mut self, tiles: usize, holds: &[Hold], rests: &[Rest]) {
         self.count = 0;
-        self.toward.clear();
-        self.toward.extend(0..tiles);
+        let mut sets = UnionFind::<usize>::new(tiles);
         self.number.clear();
         self.number.resize(tiles, usize::MAX);
         // Two tiles touch each other nearly always.
         if tiles == 2 && rests.is_empty() {
-            self.toward[1] = 0;
+            sets.union(0, 1);
         }
         for hold in holds {
             if let [Some(a), Some(b)] = hold.tiles {
-                let [a, b] = [self.first(a), self.first(b)];
-                self.toward[a.max(b)] = a.min(b);
+                sets.union(a, b);
             }
         }
         for (k, hold) in holds.iter().enumerate() {
             if let Some(tile) = hold.tiles.into_iter().flatten().next() {
-                self.of(tile).points.push(k);
+                self.of(sets.find_mut(tile)).points.push(k);
             }
         }
         for (k, rest) in rests.iter().enumerate() {
-            self.of(rest.tile).lying.push(k);
+            self.of(sets.find_mut(rest.tile)).lying.push(k);
         }
     }
 
@@ -68,17 +66,10 @@ impl Clusters {
         &self.list[..self.count]
     }
 
-    fn first(&self, mut tile: usize) -> usize {
-        while self.toward[tile] != tile {
-            tile = self.toward[tile];
-        }
-        tile
-    }
-
+    /// The cluster for which a tile stands.
     fn of(&mut self, tile: usize) -> &mut Cluster {
-        let first = self.first(tile);
-        if self.number[first] == usize::MAX {
-            self.number[first] = self.count;
+        if self.number[tile] == usize::MAX {
+            self.number[tile] = self.count;
             self.count += 1;
             if self.list.len() < self.count {
                 self.list.push(Cluster::default());
@@ -87,6 +78,6 @@ impl Clusters {
             points.clear();
             lying.clear();
         }
-        &mut self.list[self.number[first]]
+        &mut self.list[self.number[tile]]
     }
 }

@@ -43,22 +43,6 @@ const SLOWEST: f64 = 0.99;
 /// Largest share of a sweep's change by which the impulses go on after it.
 const MOMENTUM: f64 = 0.85;
 
-/// Changes the velocities by the impulses of all points; returns whether they were found. The
-/// impulses are stored in the holds; the solver starts from the stored ones. Sweeps end when the
-/// velocities are known to `error` (m/s), judged by how fast they converge. `rests` are the points at
-/// which tiles lie on the table.
-#[cfg(test)]
-pub fn hold_back(
-    inverse: &[Vector3<f64>],
-    velocities: &mut [Vector3<f64>],
-    (holds, rests): (&mut [Hold], &mut [Rest]),
-    [friction, error]: [f64; 2],
-) -> bool {
-    let mut solver = Solver::default();
-    solver.prepare(inverse.len(), (holds, rests), friction);
-    solver.hold_back(inverse, velocities, (holds, rests), error)
-}
-
 /// The solver of a set of points: what it makes of them is kept, as they are often solved for several times.
 #[derive(Default)]
 pub struct Solver {
@@ -333,6 +317,18 @@ mod tests {
     const SIDE: f64 = 0.4;
     const COUNT: usize = 5;
     const ERROR: f64 = 1e-6;
+
+    /// Solves once for some points.
+    fn hold_back(
+        inverse: &[Vector3<f64>],
+        velocities: &mut [Vector3<f64>],
+        (holds, rests): (&mut [Hold], &mut [Rest]),
+        [friction, error]: [f64; 2],
+    ) -> bool {
+        let mut solver = Solver::default();
+        solver.prepare(inverse.len(), (holds, rests), friction);
+        solver.hold_back(inverse, velocities, (holds, rests), error)
+    }
 
     /// Squares of 100 g in a block, every two neighbours touching with two corners each.
     fn block() -> (Vec<Vector3<f64>>, Vec<Hold>) {

@@ -79,7 +79,7 @@ impl<W: World> Island<'_, W> {
                 hold.impulses = hold.forces.map(|force| force * 0.5 * h);
             }
             let points = (&mut holds[..], &mut rests[..]);
-            let way = self.forecast(state, points, inverse, (h, &guess), solver)?;
+            let (way, moves) = self.forecast(state, points, inverse, (h, &guess), solver)?;
             for hold in &mut holds {
                 hold.forces = hold.impulses.map(|impulse| impulse / (0.5 * h));
             }
@@ -106,7 +106,6 @@ impl<W: World> Island<'_, W> {
                     continue;
                 }
             }
-            let moves = moves(&way, h);
             let mut first = h;
             for (k, hold) in state.holds.iter().enumerate() {
                 let gap = hold.gap_after(&moves, skin);
@@ -145,7 +144,8 @@ impl<W: World> Island<'_, W> {
         Err(Unsolved)
     }
 
-    /// The mean velocities in a step (s) that keep the gaps of lasting points from closing.
+    /// The mean velocities in a step (s) that keep the gaps of lasting points from closing, and how each tile moves
+    /// so.
     fn forecast(
         &self,
         state: &State,
@@ -153,7 +153,7 @@ impl<W: World> Island<'_, W> {
         inverse: &[Vector3<f64>],
         (h, guess): (f64, &[Vector3<f64>]),
         solver: &mut Solver,
-    ) -> Result<Each<Vector3<f64>>, Unsolved> {
+    ) -> Result<(Each<Vector3<f64>>, Each<Move>), Unsolved> {
         let free = state.halfway(h);
         // By how much the gaps at the end differ from a linear forecast (m).
         let bent = |hold: &Hold, way: &[Vector3<f64>], moves: &[Move]| {
@@ -184,7 +184,7 @@ impl<W: World> Island<'_, W> {
                 }
             }
             if change <= PRECISE * self.margins.rounding {
-                return Ok(way);
+                return Ok((way, moves));
             }
         }
         Err(Unsolved)
