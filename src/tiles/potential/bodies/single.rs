@@ -8,7 +8,7 @@ use super::near::exact;
 use super::{Alike, Body, BodyPotential, Pairs};
 use crate::configuration::Configuration;
 use crate::potential::far::PairEnergy;
-use crate::potential::far::derivatives::{AngleDerivatives, AtAngle, AtPlace, Derivatives};
+use crate::potential::far::derivatives::{AngleDerivatives, AtPlace, Derivatives};
 use crate::potential::far::rows::{Facing, Known, Lane, Several};
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task};
@@ -19,9 +19,9 @@ pub(in crate::potential) struct Single<'a> {
     pub numbers: [usize; 2],
     pub first: Body,
     pub second: Body,
-    /// Their energy by all terms of the series that are summed, and the same if it is exact so far apart.
+    /// Their energy by all terms of the series that are summed, and whether they are so far apart that it is exact.
     pub series: PairEnergy,
-    pub far: Option<PairEnergy>,
+    pub is_far: bool,
     pairs: &'a Pairs,
     coefficients: &'a RefCell<SharedSeries>,
 }
@@ -31,15 +31,33 @@ pub(in crate::potential) struct Single<'a> {
 struct SharedSeries {
     still: Known,
     turned: Known,
-    /// Derivatives at the former, of this many terms.
+    /// Derivatives at the former.
     derivatives: AngleDerivatives,
-    terms: usize,
+}
+
+impl SharedSeries {
+    fn none() -> Self {
+        Self {
+            still: Known::none(),
+            turned: Known::none(),
+            derivatives: AngleDerivatives::none(),
+        }
+    }
+
+    /// Forgets what was of another angle.
+    fn forget(&mut self) {
+        self.still.forget();
+        self.derivatives.forget();
+    }
 }
 
 impl Single<'_> {
     /// The energy.
     pub fn still(&self) -> PairEnergy {
-        self.far.unwrap_or_else(|| exact(&self.first, &self.second))
+        match self.is_far {
+            true => self.series,
+            false => exact(&self.first, &self.second),
+        }
     }
 
     /// The energies with the second magnet moved in several ways (m), and turned about its centre (rad).
@@ -76,18 +94,10 @@ impl Single<'_> {
     /// Second and third derivatives of this many terms of the series.
     pub fn derivatives(&self, terms: usize) -> Derivatives {
         let axis = complex(self.first.direction);
-        let known = &mut *self.coefficients.borrow_mut();
-        if known.terms < terms {
-            Level::best().run(AtAngle {
-                series: &self.pairs.far.series,
-                turn: complex(self.second.direction) * axis.conj(),
-                terms,
-                found: &mut known.derivatives,
-            });
-            known.terms = terms;
-        }
+        let turn = complex(self.second.direction) * axis.conj();
+        let known = &mut self.coefficients.borrow_mut().derivatives;
         Level::best().run(AtPlace {
-            coefficients: &known.derivatives,
+            coefficients: known.up_to(&self.pairs.far.series, turn, terms),
             terms,
             axis,
             way: complex(self.second.position - self.first.position),
@@ -110,15 +120,9 @@ impl BodyPotential {
         mut each: impl FnMut(&Single),
     ) {
         let (sin, cos) = libm::sincos(q.theta);
-        let coefficients = RefCell::new(SharedSeries {
-            still: Known::none(),
-            turned: Known::none(),
-            derivatives: AngleDerivatives::NONE,
-            terms: 0,
-        });
+        let coefficients = RefCell::new(SharedSeries::none());
         for ([first, second], pairs) in self.of_groups() {
-            coefficients.borrow_mut().still.forget();
-            coefficients.borrow_mut().terms = 0;
+            coefficients.borrow_mut().forget();
             let turned = second.like.moved([cos, sin], Vector2::zeros());
             if skipped(&first.like, &turned) {
                 continue;
@@ -137,7 +141,7 @@ impl BodyPotential {
                     first: body(first, from, i, &first.like),
                     second: body(second, place, j, &turned),
                     series: lane.pair,
-                    far: (lane.square >= pairs.far.near()).then_some(lane.pair),
+                    is_far: lane.square >= pairs.far.near(),
                     pairs,
                     coefficients: &coefficients,
                 });

@@ -19,12 +19,16 @@
 use nalgebra::Complex;
 
 use super::multipole::{MOST_TERMS, Multipole, ROOM, index};
+use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
-/// C_kl and their first three derivatives by beta: real and imaginary parts.
+/// C_kl and their first three derivatives by beta, of the terms that are known: real and imaginary parts.
 #[derive(Clone, Debug)]
-pub struct AngleDerivatives([[[f64; ROOM]; 2]; 4]);
+pub struct AngleDerivatives {
+    parts: [[[f64; ROOM]; 2]; 4],
+    terms: usize,
+}
 
 /// How often a term is derived by w and by its conjugate.
 const ORDERS: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (3, 0)];
@@ -79,15 +83,37 @@ pub struct Derivatives {
 }
 
 impl AngleDerivatives {
-    pub const NONE: Self = Self([[[0.0; ROOM]; 2]; 4]);
+    pub fn none() -> Self {
+        Self {
+            parts: [[[0.0; ROOM]; 2]; 4],
+            terms: 0,
+        }
+    }
+
+    /// Forgets all, as at another angle.
+    pub fn forget(&mut self) {
+        self.terms = 0;
+    }
+
+    /// Those of this many terms of a series, at `turn` = e^(i beta), at which all are that are known.
+    pub fn up_to(&mut self, series: &Multipole, turn: Complex<f64>, terms: usize) -> &Self {
+        if self.terms < terms {
+            self.terms = terms;
+            Level::best().run(AtAngle {
+                series,
+                turn,
+                found: self,
+            });
+        }
+        self
+    }
 }
 
-/// Computes [`AngleDerivatives`] of the first `terms` terms, at `turn` = e^(i beta).
-pub struct AtAngle<'a> {
-    pub series: &'a Multipole,
-    pub turn: Complex<f64>,
-    pub terms: usize,
-    pub found: &'a mut AngleDerivatives,
+/// Computes [`AngleDerivatives`].
+struct AtAngle<'a> {
+    series: &'a Multipole,
+    turn: Complex<f64>,
+    found: &'a mut AngleDerivatives,
 }
 
 impl Task for AtAngle<'_> {
@@ -95,8 +121,9 @@ impl Task for AtAngle<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        let (turns, count) = self.series.turns(self.turn, self.terms);
-        for i in (0..index(self.terms, 0)).step_by(WIDTH) {
+        let terms = self.found.terms;
+        let (turns, count) = self.series.turns(self.turn, terms);
+        for i in (0..index(terms, 0)).step_by(WIDTH) {
             let mut parts = [[l.splat(0.0); 2]; 4];
             for (j, phase) in turns[..count].iter().enumerate() {
                 let (sum, difference) = self.series.with_order(j);
@@ -110,7 +137,7 @@ impl Task for AtAngle<'_> {
                     phase = Complex::new(-phase.im * order, phase.re * order);
                 }
             }
-            for (part, found) in parts.into_iter().zip(&mut self.found.0) {
+            for (part, found) in parts.into_iter().zip(&mut self.found.parts) {
                 l.store(part[0], &mut found[0][i..]);
                 l.store(part[1], &mut found[1][i..]);
             }
@@ -134,7 +161,7 @@ impl AtPlace<'_> {
     /// The terms from number i on, derived by beta so often.
     #[inline(always)]
     fn term<L: Lanes>(&self, l: L, turned: usize, i: usize, place: [L::F; 2]) -> [L::F; 2] {
-        let [re, im] = &self.coefficients.0[turned];
+        let [re, im] = &self.coefficients.parts[turned];
         l.complex_product([l.load(&re[i..]), l.load(&im[i..])], place)
     }
 
@@ -244,7 +271,6 @@ mod tests {
     use crate::potential::MagnetModel;
     use crate::potential::bodies::{Body, exact, series_of};
     use crate::potential::far::PairEnergy;
-    use crate::potential::simd::Level;
     use crate::tile::magnet::Shape;
 
     fn body(shape: Shape, stands: bool, position: Vector2<f64>, turn: f64) -> Body {
@@ -273,15 +299,10 @@ mod tests {
             let form = series_of(MagnetModel::Cuboid, &first, &second, 1e-9);
             let complex = |v: Vector2<f64>| Complex::new(v.x, v.y);
             let axis = complex(first.direction);
-            let mut coefficients = AngleDerivatives::NONE;
-            Level::best().run(AtAngle {
-                series: &form.series,
-                turn: complex(second.direction) * axis.conj(),
-                terms: MOST_TERMS,
-                found: &mut coefficients,
-            });
+            let turn = complex(second.direction) * axis.conj();
+            let mut coefficients = AngleDerivatives::none();
             let found = Level::best().run(AtPlace {
-                coefficients: &coefficients,
+                coefficients: coefficients.up_to(&form.series, turn, MOST_TERMS),
                 terms: MOST_TERMS,
                 axis,
                 way: complex(way),

@@ -3,7 +3,7 @@
 
 use nalgebra::{Complex, Vector2};
 
-use super::{A_PAIR, Pair, Sum};
+use super::{A_TERM, Pair, Sum};
 use crate::cell::Quadratic;
 use crate::potential::far::PairEnergy;
 use crate::potential::far::derivatives::Derivatives;
@@ -17,7 +17,7 @@ impl Pair<'_> {
     /// Adds the form of third order, with value and gradient of this energy and derivatives of so many terms
     /// of the series.
     pub(super) fn add_series(&self, energy: &PairEnergy, terms: usize, out: &mut Sum) {
-        out.work += A_PAIR * terms as u64;
+        out.work += A_TERM * terms as u64;
         let of = match self.cell.half == [0.0; 3] {
             true => Derivatives::default(),
             false => self.single.derivatives(terms),

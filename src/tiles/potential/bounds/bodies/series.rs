@@ -37,6 +37,7 @@ use super::Left;
 use crate::potential::bodies::{Body, magnitudes_of};
 use crate::potential::classes::{class_of, shortest};
 use crate::potential::far::multipole::MOST_TERMS;
+use crate::tile::magnet::Shape;
 
 /// Terms of which A_k is computed, and those that are summed: at the least distance each G_k is at most 0.7
 /// times the one before, up to factors that grow like a power of k, so that the others are nothing.
@@ -89,9 +90,9 @@ pub(super) struct OfSeries {
 }
 
 impl SeriesBounds {
-    /// Of two magnets that both lie or both stand, with half their diagonals (m).
-    pub fn new([first, second]: [&Body; 2], halves: [f64; 2]) -> Self {
-        let s = halves[0] + halves[1];
+    /// Of two magnets that both lie or both stand.
+    pub fn new(first: &Body, second: &Body) -> Self {
+        let s = half_diagonal(first) + half_diagonal(second);
         // In units of s^(2k), as numbers would be too small otherwise.
         let [one, other] = [first, second].map(|body| Body {
             size: body.size.map(|side| side / s),
@@ -138,6 +139,16 @@ impl SeriesBounds {
                 slope: scale * of_motion(&sums.unknown.1, [v, w]),
             },
         })
+    }
+}
+
+/// Half the diagonal (m) of a magnet.
+fn half_diagonal(body: &Body) -> f64 {
+    let [a, b, c] = body.size;
+    match (body.shape, body.stands) {
+        (Shape::Block, _) => libm::hypot(libm::hypot(a, b), c) / 2.0,
+        (Shape::Disc, false) => libm::hypot(a, b) / 2.0,
+        (Shape::Disc, true) => libm::hypot(c, a) / 2.0,
     }
 }
 
@@ -201,10 +212,8 @@ mod tests {
     use nalgebra::Vector2;
 
     use super::super::super::apart::tests::check;
-    use super::super::far::half_diagonal;
     use super::*;
     use crate::potential::bodies::exact;
-    use crate::tile::magnet::Shape;
     use crate::units::MU0_OVER_4PI;
 
     /// The energy and its first and third derivatives by time, by differences, along motions that turn the
@@ -232,7 +241,7 @@ mod tests {
             let shape = [Shape::Disc, Shape::Block][k as usize / 3 % 2];
             let first = body(Shape::Disc, Vector2::zeros(), 0.2);
             let second = body(shape, way * r, 0.37 * f64::from(k));
-            let bounds = SeriesBounds::new([&first, &second], [&first, &second].map(half_diagonal));
+            let bounds = SeriesBounds::new(&first, &second);
             let centre = second.position - Vector2::new(0.02, 0.01);
             let (turn, half) = (0.02, 0.0004);
             let reach = half + (second.position - centre).norm() * turn;
