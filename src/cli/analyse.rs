@@ -14,22 +14,11 @@ use tilebind::report::plots::Scene;
 use super::failure::fail_if_contradicted;
 use super::figures::{FigureOptions, command_line};
 use super::options::{DesignOptions, ForceOption, PrintOptions, ThreadOption};
-use super::{Failure, interrupt, style, workload};
-
-const DYNAMICS: &str = "\
-Check every barrier with RUNS simulated trajectories started below it [default: 1000]";
-
-const DYNAMICS_LONG: &str = "\
-Check every barrier with RUNS simulated trajectories started below it [default: 1000]
-
-1000 trajectories take about one core-second per barrier, up to five for curved shapes. The paper's \
-tile has 23 barriers. If a trajectory contradicts a barrier, all results are still written, the \
-contradiction is reported and the exit status is 1.";
+use super::{Asked, Failure, interrupt, style, workload};
 
 /// Find and draw the states, traps, barriers and pathways of a design
 #[derive(Args)]
 #[command(
-    mut_arg("dynamics", |dynamics| dynamics.help(DYNAMICS).long_help(DYNAMICS_LONG)),
     mut_arg("json", |json| json.help("Print report.json instead of the summary")),
     after_help = "\
 Examples:
@@ -52,7 +41,7 @@ pub struct Analyse {
     force: ForceOption,
 
     #[command(flatten)]
-    request: Request,
+    request: Asked<Request>,
 
     #[command(flatten)]
     threads: ThreadOption,

@@ -8,7 +8,7 @@ use tilebind::report::assembly::{FILES, document};
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input};
+use super::{Asked, Failure, input};
 
 /// Realise a tile set with magnets: one barcode per glue, and input files for xgrow and rgrow
 #[derive(Args)]
@@ -28,7 +28,7 @@ pub struct Assemble {
     words: Option<PathBuf>,
 
     #[command(flatten)]
-    request: Request,
+    request: Asked<Request>,
 
     #[command(flatten)]
     threads: ThreadOption,

@@ -11,7 +11,7 @@ use tilebind::report::csv;
 use super::options::{DesignOptions, ThreadOption};
 use super::progress::Progress;
 use super::results::NumberOptions;
-use super::{Failure, input, interrupt, workload};
+use super::{Asked, Failure, input, interrupt, workload};
 
 /// Print the energy barrier between two poses with certified bounds, as JSON
 #[derive(Args)]
@@ -27,7 +27,7 @@ pub struct Barrier {
     design: DesignOptions,
 
     #[command(flatten)]
-    request: Request,
+    request: Asked<Request>,
 
     /// File for the pathway (CSV)
     ///

@@ -9,7 +9,7 @@ use tilebind::report::calibration::{FILES, document};
 
 use super::options::DesignOptions;
 use super::results::ResultOptions;
-use super::{Failure, input};
+use super::{Asked, Failure, input};
 
 /// Fit the magnets' strength or soft-iron shields to measured forces, or kT to observed pairs
 #[derive(Args)]
@@ -37,10 +37,10 @@ pub struct Calibrate {
     bonds: Option<PathBuf>,
 
     #[command(flatten)]
-    pairs: PairsRequest,
+    pairs: Asked<PairsRequest>,
 
     #[command(flatten)]
-    forces: ForcesRequest,
+    forces: Asked<ForcesRequest>,
 
     #[command(flatten)]
     results: ResultOptions,

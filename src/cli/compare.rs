@@ -12,7 +12,7 @@ use tilebind::report::comparison::{Comparison, FILES};
 use super::failure::tell_refuted;
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input, workload};
+use super::{Asked, By, Failure, input, workload};
 use tilebind::request::{self, Word};
 
 /// Compare designs: bond, traps, barriers with bounds, capture range
@@ -27,17 +27,17 @@ pub struct Compare {
     designs: Vec<PathBuf>,
 
     /// Magnet model, dipole or cuboid [default: each design's own]
-    #[arg(long, value_name = "MODEL", value_parser = request::model(),
+    #[arg(long, value_name = "MODEL", value_parser = By(request::model()),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 
     /// Rank by selectivity, bond_depth, unbinding, captured, robust, ...; largest first
-    #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity(),
+    #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = By(quantity()),
           hide_possible_values = true)]
     by: &'static Quantity,
 
     #[command(flatten)]
-    request: Request,
+    request: Asked<Request>,
 
     #[command(flatten)]
     threads: ThreadOption,
@@ -54,7 +54,7 @@ impl Compare {
         let output = self.results.output(&FILES, inputs.collect())?;
         let request = Request {
             thoroughness: self.request.thoroughness.of(&designs),
-            ..self.request
+            ..self.request.0
         };
         request
             .thoroughness

@@ -9,7 +9,7 @@ use tilebind::word_sets::CrosstalkRequest;
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, tell};
+use super::{Asked, Failure, tell};
 
 /// Find the strongest attraction between every two words of a set, mates included, over all poses
 #[derive(Args)]
@@ -19,7 +19,7 @@ pub struct Crosstalk {
     set: PathBuf,
 
     #[command(flatten)]
-    request: CrosstalkRequest,
+    request: Asked<CrosstalkRequest>,
 
     #[command(flatten)]
     threads: ThreadOption,

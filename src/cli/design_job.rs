@@ -4,20 +4,21 @@ use clap::Args;
 use tilebind::design::Design;
 use tilebind::output::{Command, Output};
 use tilebind::report::document::Document;
+use tilebind::request::Options;
 
-use super::Failure;
 use super::options::{DesignOptions, ThreadOption};
 use super::progress::Progress;
 use super::results::ResultOptions;
+use super::{Asked, Failure};
 
 /// The options: a design and the request about it.
 #[derive(Args)]
-pub struct DesignJob<R: Args> {
+pub struct DesignJob<R: Options> {
     #[command(flatten)]
     design: DesignOptions,
 
     #[command(flatten)]
-    request: R,
+    request: Asked<R>,
 
     #[command(flatten)]
     threads: ThreadOption,
@@ -36,7 +37,7 @@ pub struct Begun {
     results: ResultOptions,
 }
 
-impl<R: Args> DesignJob<R> {
+impl<R: Options> DesignJob<R> {
     /// Reads the design and makes ready to write the files of the command.
     pub fn begin(self, files: &'static Command) -> Result<(R, Begun), Failure> {
         let design = self.design.load()?;
@@ -49,7 +50,7 @@ impl<R: Args> DesignJob<R> {
             output,
             results: self.results,
         };
-        Ok((self.request, begun))
+        Ok((self.request.0, begun))
     }
 }
 

@@ -10,7 +10,7 @@ use tilebind::report::{docking as report, release};
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input, workload};
+use super::{Asked, Failure, input, workload};
 
 /// Launch the moving tile at the fixed one many times and count the outcomes
 #[derive(Args)]
@@ -33,10 +33,10 @@ pub struct Dock {
     design: PathBuf,
 
     #[command(flatten)]
-    request: Request,
+    request: Asked<Request>,
 
     #[command(flatten)]
-    release: ReleaseOptions,
+    release: Asked<ReleaseOptions>,
 
     /// Trajectory to write to trajectory.csv and show first [default: the first that binds]
     #[arg(long, value_name = "N", conflicts_with = "from_bond")]

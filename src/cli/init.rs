@@ -6,7 +6,7 @@ use clap::Args;
 use tilebind::output::{Command, Output};
 use tilebind::start::Request;
 
-use super::{Failure, print, tell};
+use super::{Asked, Failure, print, tell};
 
 /// Write a commented design file to start from
 #[derive(Args)]
@@ -32,7 +32,7 @@ pub struct Init {
     force: bool,
 
     #[command(flatten)]
-    request: Request,
+    request: Asked<Request>,
 }
 
 const INIT: Command = Command::of_single_files("init");

@@ -8,13 +8,13 @@ use tilebind::assembly;
 use tilebind::design::Design;
 use tilebind::output::Output;
 use tilebind::report::workshop::{FILES, document};
-use tilebind::request;
+use tilebind::request::Options;
 use tilebind::workshop::{Made, Request, Subject};
 
 use super::options::ThreadOption;
 
 use super::results::ResultOptions;
-use super::{Failure, input};
+use super::{Asked, Failure, input};
 
 /// Write workshop files for tiles: DXF and SVG to scale, and a magnet sheet
 #[derive(Args)]
@@ -48,7 +48,7 @@ pub struct Make {
     words: Option<PathBuf>,
 
     #[command(flatten)]
-    making: Request,
+    making: Asked<Request>,
 
     #[command(flatten)]
     threads: ThreadOption,
@@ -99,7 +99,7 @@ impl Make {
                 ));
             }
         };
-        let request: assembly::Request = request::of_keywords(Vec::new()).map_err(Failure::run)?;
+        let request = assembly::Request::with_defaults();
         let tiles = request.tile_set(set)?;
         let design = input::if_given(design)?;
         let files = design.iter().flat_map(|(_, files)| files);

@@ -7,7 +7,7 @@ use tilebind::matching::Request;
 use tilebind::report::matching::{FILES, document};
 
 use super::results::ResultOptions;
-use super::{Failure, input};
+use super::{Asked, Failure, input};
 
 /// List how the two outlines fit together, ignoring magnets, longest contact first
 #[derive(Args)]
@@ -23,7 +23,7 @@ pub struct Match {
     design: PathBuf,
 
     #[command(flatten)]
-    request: Request,
+    request: Asked<Request>,
 
     #[command(flatten)]
     results: ResultOptions,

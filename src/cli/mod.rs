@@ -1,6 +1,7 @@
 //! The commands, one file each, and what they share.
 
 mod analyse;
+mod asked;
 mod assemble;
 mod barrier;
 mod bond;
@@ -36,6 +37,7 @@ mod words;
 mod workload;
 mod yields;
 
+use asked::{Asked, By};
 pub use failure::Failure;
 use failure::WRONG;
 pub use interrupt::prepare;

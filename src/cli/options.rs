@@ -11,7 +11,7 @@ use tilebind::output::{Command, Output};
 use tilebind::{memory, request};
 
 use super::progress::Progress;
-use super::{Failure, input, print, tell};
+use super::{By, Failure, input, print, tell};
 
 /// A design and its magnet model.
 #[derive(Args)]
@@ -20,7 +20,7 @@ pub struct DesignOptions {
     design: PathBuf,
 
     /// Magnet model, dipole or cuboid [default: the design's]
-    #[arg(long, value_name = "MODEL", value_parser = request::model(),
+    #[arg(long, value_name = "MODEL", value_parser = By(request::model()),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 }

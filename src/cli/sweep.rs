@@ -20,7 +20,7 @@ use super::options::{ForceOption, PrintOptions, ThreadOption};
 use super::results::describe_of;
 use super::search::Searching;
 use super::sweep_progress::PointBar;
-use super::{Failure, input, interrupt, print, tell, workload};
+use super::{Asked, Failure, input, interrupt, print, tell, workload};
 
 /// The default manifest file.
 const PLAN: &str = "plan.json";
@@ -93,10 +93,10 @@ pub struct Sweep {
     force: ForceOption,
 
     #[command(flatten)]
-    request: Request,
+    request: Asked<Request>,
 
     #[command(flatten)]
-    aim: Aims,
+    aim: Asked<Aims>,
 
     /// Only write the manifest [default: plan.json in the folder of --out]
     #[arg(long, value_name = "PLAN", num_args = 0..=1, conflicts_with_all = ["run", "merge", "status"])]

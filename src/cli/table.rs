@@ -16,7 +16,7 @@ use tilebind::units::duration;
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input, tell};
+use super::{Asked, By, Failure, input, tell};
 
 /// Simulate many tiles on one table, with contact, friction and drives, and count bonds and traps
 #[derive(Args)]
@@ -61,7 +61,7 @@ pub struct TableCommand {
     tiles: Vec<PathBuf>,
 
     /// Magnet model, dipole or cuboid [default: the design's]
-    #[arg(long, value_name = "MODEL", value_parser = request::model(),
+    #[arg(long, value_name = "MODEL", value_parser = By(request::model()),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 
@@ -70,7 +70,7 @@ pub struct TableCommand {
     lattice: Option<[usize; 2]>,
 
     #[command(flatten)]
-    request: Request,
+    request: Asked<Request>,
 
     /// Initial tiles (CSV), instead of --count tiles at random positions
     #[arg(long, value_name = "FILE.csv", conflicts_with = "count")]

@@ -8,7 +8,7 @@ use tilebind::word_sets::Request;
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input};
+use super::{Asked, Failure, input};
 
 /// Find sets of barcodes that bind their mates and nothing else
 #[derive(Args)]
@@ -18,7 +18,7 @@ pub struct Words {
     design: Option<PathBuf>,
 
     #[command(flatten)]
-    request: Request,
+    request: Asked<Request>,
 
     #[command(flatten)]
     threads: ThreadOption,

@@ -1,10 +1,8 @@
 //! How strongly the bond and the traps hold shaken tiles.
 
-use clap::Args;
-
 use crate::design::Design;
 use crate::pipeline;
-use crate::request;
+use crate::request::{self, options};
 use physics::configuration::Configuration;
 use physics::kinetics::bond::{Binding, BondError, Hold, Shaking, TOLERANCE, traps};
 use physics::landscape::Catalogue;
@@ -17,21 +15,19 @@ const SHAKINGS: [f64; 9] = [0.4, 0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5];
 /// Relative tolerance of plotted integrals.
 const ROUGH: f64 = 1e-2;
 
-/// The options.
-#[derive(Clone, Copy, Debug, PartialEq, Args)]
-pub struct Request {
-    /// Effective energy kT of shaking (J)
-    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
-    pub kt: f64,
+options! {
+    /// The options.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Request {
+        /// Effective energy kT of shaking (J)
+        pub kt: f64 = value("E_J", request::shaking),
 
-    /// Fraction of the table covered by tiles
-    #[arg(long, value_name = "F", value_parser = request::fraction)]
-    pub coverage: f64,
+        /// Fraction of the table covered by tiles
+        pub coverage: f64 = value("F", request::fraction),
 
-    /// Random seed; the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = pipeline::Request::default().seed,
-          value_parser = request::seed)]
-    pub seed: u64,
+        /// Random seed; the same seed gives the same results
+        pub seed: u64 = value("N", request::seed).or(pipeline::Request::default().seed),
+    }
 }
 
 impl Request {

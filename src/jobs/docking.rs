@@ -2,12 +2,10 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use clap::Args;
-
 use crate::design::{self, Design};
 use crate::memory;
 use crate::rates::diffusion;
-use crate::request::{self, MotionOptions};
+use crate::request::{self, MotionOptions, options};
 use physics::dynamics::docking::{
     Docking, DockingError, DockingRun, DockingSettings, End, Release, Starts, dock, releases,
     trajectory,
@@ -18,42 +16,34 @@ use physics::observer::Observer;
 use physics::problem::Problem;
 use physics::tile::Pair;
 
-/// The options of a docking experiment.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct Request {
-    /// Number of trajectories
-    #[arg(long, value_name = "N", default_value_t = DockingSettings::default().runs,
-          value_parser = request::runs)]
-    pub runs: usize,
+options! {
+    /// The options of a docking experiment.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Request {
+        /// Number of trajectories
+        pub runs: usize = value("N", request::runs).or(DockingSettings::default().runs),
 
-    /// Duration of each trajectory (s)
-    #[arg(long, value_name = "S", default_value_t = DockingSettings::default().duration,
-          value_parser = duration)]
-    pub duration: f64,
+        /// Duration of each trajectory (s)
+        pub duration: f64 = value("S", duration).or(DockingSettings::default().duration),
 
-    /// How tiles move.
-    #[command(flatten)]
-    pub motion: MotionOptions,
+        /// How tiles move.
+        pub motion: MotionOptions = group(),
 
-    /// Distance (m) within which target magnets count as matched [default: 1.5 magnet lengths]
-    #[arg(long, value_name = "M", value_parser = request::length)]
-    pub threshold: Option<f64>,
+        /// Distance (m) within which target magnets count as matched [default: 1.5 magnet lengths]
+        pub threshold: Option<f64> = value("M", request::length),
 
-    /// Where runs start.
-    #[command(flatten)]
-    pub starts: StartOptions,
+        /// Where runs start.
+        pub starts: StartOptions = group(),
 
-    /// Let tiles leave the table
-    #[arg(long)]
-    pub no_walls: bool,
+        /// Let tiles leave the table
+        pub no_walls: bool = flag(),
 
-    /// Effective energy kT of random shaking (J)
-    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
-    pub shaking: Option<f64>,
+        /// Effective energy kT of random shaking (J)
+        pub shaking: Option<f64> = value("E_J", request::shaking),
 
-    /// Random seed; a trajectory depends only on it and on its own number
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
-    pub seed: u64,
+        /// Random seed; a trajectory depends only on it and on its own number
+        pub seed: u64 = value("N", request::seed).or(1),
+    }
 }
 
 /// Memory (bytes) of a run until its results are written, measured.
@@ -86,20 +76,20 @@ impl Request {
     }
 }
 
-/// The options for measuring how long bonds last.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Args)]
-pub struct ReleaseOptions {
-    /// Start bound, with a thermal velocity, and measure the detachment rate
-    ///
-    /// The options that set the start are ignored.
-    #[arg(long, requires = "shaking")]
-    pub from_bond: bool,
+options! {
+    /// The options for measuring how long bonds last.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct ReleaseOptions {
+        /// Start bound, with a thermal velocity, and measure the detachment rate
+        ///
+        /// The options that set the start are ignored.
+        pub from_bond: bool = flag().requires("shaking"),
 
-    /// With --from-bond: also print the overdamped rate
-    ///
-    /// It is solved on a mesh at the same kT and drag, as in `tilebind rates`.
-    #[arg(long, requires = "from_bond")]
-    pub overdamped: bool,
+        /// With --from-bond: also print the overdamped rate
+        ///
+        /// It is solved on a mesh at the same kT and drag, as in `tilebind rates`.
+        pub overdamped: bool = flag().requires("from_bond"),
+    }
 }
 
 /// Runs an experiment, and reports how many of its trajectories have ended.
@@ -195,34 +185,30 @@ pub fn loosening(
     Ok(found.times(diffusion(design, kt, settings.motion.drag)))
 }
 
-/// Ranges from which starts are drawn.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct StartOptions {
-    /// Initial distance between reference points (m) [default: 0.62,1 scaled with the tiles]
-    ///
-    /// 0.62,1 is the range for the paper's tiles.
-    #[arg(long, value_name = "LOW,HIGH", value_parser = lengths)]
-    pub distance: Option<[f64; 2]>,
+options! {
+    /// Ranges from which starts are drawn.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct StartOptions {
+        /// Initial distance between reference points (m) [default: 0.62,1 scaled with the tiles]
+        ///
+        /// 0.62,1 is the range for the paper's tiles.
+        pub distance: Option<[f64; 2]> = value("LOW,HIGH", lengths),
 
-    /// Largest angle (rad) from the target face's normal to the tile [default: 0.7854]
-    #[arg(long, value_name = "RAD", value_parser = request::turn)]
-    pub direction: Option<f64>,
+        /// Largest angle (rad) from the target face's normal to the tile [default: 0.7854]
+        pub direction: Option<f64> = value("RAD", request::turn),
 
-    /// Largest angle (rad) from the bound orientation [default: 1.5]
-    #[arg(long, value_name = "RAD", value_parser = request::turn)]
-    pub orientation: Option<f64>,
+        /// Largest angle (rad) from the bound orientation [default: 1.5]
+        pub orientation: Option<f64> = value("RAD", request::turn),
 
-    /// Initial speed (m/s) [default: 0,1.3]
-    #[arg(long, value_name = "LOW,HIGH", value_parser = speeds)]
-    pub speed: Option<[f64; 2]>,
+        /// Initial speed (m/s) [default: 0,1.3]
+        pub speed: Option<[f64; 2]> = value("LOW,HIGH", speeds),
 
-    /// Largest angle (rad) between the velocity and the line to the fixed tile [default: 0.3]
-    #[arg(long, value_name = "RAD", value_parser = request::turn)]
-    pub aim: Option<f64>,
+        /// Largest angle (rad) between the velocity and the line to the fixed tile [default: 0.3]
+        pub aim: Option<f64> = value("RAD", request::turn),
 
-    /// Largest initial angular velocity, either way (rad/s) [default: 0]
-    #[arg(long, value_name = "RATE", value_parser = spin)]
-    pub spin: Option<f64>,
+        /// Largest initial angular velocity, either way (rad/s) [default: 0]
+        pub spin: Option<f64> = value("RATE", spin),
+    }
 }
 
 impl StartOptions {

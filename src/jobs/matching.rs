@@ -1,18 +1,17 @@
 //! The ways in which the two outlines of a design fit together.
 
-use clap::Args;
-
 use crate::design::Design;
-use crate::request;
+use crate::request::{self, options};
 use physics::contact::Contact;
 use physics::contact::matching::{Match, matches};
 
-/// The options of a search for fits.
-#[derive(Clone, Debug, Args)]
-pub struct Request {
-    /// Largest number of fits to list
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = request::count)]
-    pub most: usize,
+options! {
+    /// The options of a search for fits.
+    #[derive(Clone, Debug)]
+    pub struct Request {
+        /// Largest number of fits to list
+        pub most: usize = value("N", request::count).or(100),
+    }
 }
 
 impl Request {

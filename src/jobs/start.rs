@@ -1,49 +1,46 @@
 //! New designs: the request.
 
-use clap::Args;
-
 use crate::design::{Material, ProfileShape, STARTER, ShopMagnet, Start, StartError, check_name};
-use crate::request::{self, Word};
+use crate::request::{self, Word, options};
 
-/// The options of a new design; without any options, it is one that explains every key.
-#[derive(Clone, Copy, Debug, PartialEq, Args)]
-pub struct Request {
-    /// Sides of both tiles, 3 to 24 [default: 4]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32))]
-    pub sides: Option<u32>,
+options! {
+    /// The options of a new design; without any options, it is one that explains every key.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Request {
+        /// Sides of both tiles, 3 to 24 [default: 4]
+        pub sides: Option<u32> = value("N", sides),
 
-    /// Side length (m), or with a unit: "12 cm" [default: 0.43]
-    #[arg(long, value_name = "M", value_parser = request::length)]
-    pub side: Option<f64>,
+        /// Side length (m), or with a unit: "12 cm" [default: 0.43]
+        pub side: Option<f64> = value("M", request::length),
 
-    /// Magnets on each of the two binding faces, 1 to 16 [default: 4]
-    #[arg(long, value_name = "K", value_parser = request::count)]
-    pub magnets: Option<usize>,
+        /// Magnets on each of the two binding faces, 1 to 16 [default: 4]
+        pub magnets: Option<usize> = value("K", request::count),
 
-    /// Shape of those faces: flat, tab, arc, sine or triangle [default: tab]
-    #[arg(long, value_parser = shape(), hide_possible_values = true)]
-    pub shape: Option<ProfileShape>,
+        /// Shape of those faces: flat, tab, arc, sine or triangle [default: tab]
+        pub shape: Option<ProfileShape> = value("SHAPE", shape()),
 
-    /// Magnets as sold: "10 x 5 x 2 mm N42", or a disc: "10 x 3 mm N42" [default: sized to fit]
-    ///
-    /// Length x width x height of a block or diameter x height of a disc, and grade. The magnets are
-    /// magnetised along the last dimension. With `up` the axis stands across the tile: "6 x 3 mm N42 up".
-    #[arg(long, value_name = "MAGNET", value_parser = ShopMagnet::parse)]
-    pub magnet: Option<ShopMagnet>,
+        /// Magnets as sold: "10 x 5 x 2 mm N42", or a disc: "10 x 3 mm N42" [default: sized to fit]
+        ///
+        /// Length x width x height of a block or diameter x height of a disc, and grade. The magnets are
+        /// magnetised along the last dimension. With `up` the axis stands across the tile: "6 x 3 mm N42 up".
+        pub magnet: Option<ShopMagnet> = value("MAGNET", ShopMagnet::parse),
 
-    /// Thickness of both tiles (m), or with a unit [default: a fifth of the side, at most 13 mm]
-    #[arg(long, value_name = "M", value_parser = request::length)]
-    pub thickness: Option<f64>,
+        /// Thickness of both tiles (m), or with a unit [default: a fifth of the side, at most 13 mm]
+        pub thickness: Option<f64> = value("M", request::length),
 
-    /// What the tiles are made of, for their mass: plywood, acrylic, pla ... or a density [default: plywood]
-    ///
-    /// A density is in kg/m3 or has a unit: "0.6 g/cm3".
-    #[arg(long, value_name = "MATERIAL", value_parser = Material::parse)]
-    pub material: Option<Material>,
+        /// What the tiles are made of, for their mass: plywood, acrylic, pla ... or a density [default: plywood]
+        ///
+        /// A density is in kg/m3 or has a unit: "0.6 g/cm3".
+        pub material: Option<Material> = value("MATERIAL", Material::parse),
 
-    /// Both tiles of one kind: each has both binding faces, so that many of them join
-    #[arg(long)]
-    pub one_kind: bool,
+        /// Both tiles of one kind: each has both binding faces, so that many of them join
+        pub one_kind: bool = flag(),
+    }
+}
+
+fn sides(text: &str) -> Result<u32, String> {
+    let found = text.parse();
+    found.map_err(|_| "a whole number is needed, such as 6".to_owned())
 }
 
 fn shape() -> Word<ProfileShape> {

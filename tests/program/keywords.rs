@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
-use clap::{Arg, ArgAction, Args, Command};
+use tilebind::request::{Entry, Options};
 use tilebind::{
     assembly, bond, calibration, comparison, docking, pipeline, query, rates, search, start, sweep,
     table, tolerance, word_sets, workshop, yields,
@@ -23,10 +23,13 @@ struct Call {
     keywords: Vec<Keyword>,
 }
 
-fn call<R: Args>(name: &'static str, others: &[&str]) -> Call {
-    let command = R::augment_args(Command::new(""));
-    let arguments = command.get_arguments().filter(|it| !it.is_hide_set());
-    let mut keywords: Vec<_> = arguments.map(Keyword::of).collect();
+fn call<R: Options>(name: &'static str, others: &[&str]) -> Call {
+    of_table(name, R::table(), others)
+}
+
+fn of_table(name: &'static str, table: Vec<Entry>, others: &[&str]) -> Call {
+    let shown = table.iter().filter(|it| !it.is_hidden);
+    let mut keywords: Vec<_> = shown.map(Keyword::of).collect();
     keywords.retain(|it| !others.contains(&&it.name[..]));
     keywords.sort_by_key(|it| it.default.is_some());
     let (class, name) = name.split_once('.').unwrap_or(("", name));
@@ -55,21 +58,13 @@ fn calls() -> Vec<Call> {
         call::<start::Request>("Design.start", &[]),
         call::<comparison::Request>("compare", &[]),
         call::<sweep::Request>("sweep", &[]),
-        call::<Searching>("search", &[]),
+        // A search is a sweep with an aim.
+        of_table("search", [search::Request::table(), comparison::Request::table()].concat(), &[]),
         call::<tolerance::Request>("tolerance", &[]),
         call::<word_sets::Request>("words", &[]),
         call::<word_sets::CrosstalkRequest>("crosstalk", &[]),
         call::<assembly::Request>("assemble", &[]),
     ]
-}
-
-/// A search is a sweep with an aim.
-#[derive(Args)]
-struct Searching {
-    #[command(flatten)]
-    _aim: search::Request,
-    #[command(flatten)]
-    _assessments: comparison::Request,
 }
 
 struct Keyword {
@@ -82,32 +77,25 @@ struct Keyword {
 }
 
 impl Keyword {
-    fn of(option: &Arg) -> Self {
+    fn of(option: &Entry) -> Self {
         // A flag with a number on the command line.
-        let name = match option.get_long().expect("a name") {
-            "dynamics" => "dynamics-runs",
+        let name = match option.name {
+            "dynamics" => "dynamics_runs",
             name => name,
         };
-        let kind = kind(option);
-        let given = option.get_default_values().first();
-        let given = given.map(|it| it.to_string_lossy().into_owned());
-        let default = match option.get_action() {
-            ArgAction::SetTrue => Some("False".to_owned()),
-            _ if option.is_required_set() => None,
-            _ => Some(match given {
-                None => "None".to_owned(),
-                Some(number) if number.parse::<f64>().is_ok() => number,
-                Some(word) => format!("\"{word}\""),
-            }),
+        let default = match &option.default {
+            _ if option.value.is_none() => Some("False".to_owned()),
+            _ if option.required_unless.is_some_and(<[_]>::is_empty) => None,
+            None => Some("None".to_owned()),
+            Some(number) if number.parse::<f64>().is_ok() => Some(number.clone()),
+            Some(word) => Some(format!("\"{word}\"")),
         };
+        let help = option.help.split("\n\n").next().unwrap_or_default();
         Self {
-            name: name.replace('-', "_"),
-            kind,
+            name: name.to_owned(),
+            kind: kind(option),
             default,
-            help: option
-                .get_help()
-                .map(|it| it.to_string())
-                .unwrap_or_default(),
+            help: help.to_owned(),
         }
     }
 
@@ -161,12 +149,11 @@ impl Keyword {
 }
 
 /// The type of an option in the stub. Numbers may be given as on the command line, with units.
-fn kind(option: &Arg) -> String {
-    if !option.get_action().takes_values() {
+fn kind(option: &Entry) -> String {
+    let Some(form) = option.value else {
         return "bool".to_owned();
-    }
-    let parser = option.get_value_parser();
-    let is = |of: &[TypeId]| of.iter().any(|it| parser.type_id() == *it);
+    };
+    let is = |of: &[TypeId]| option.kind.is_some_and(|it| of.contains(&it));
     let number = [TypeId::of::<f64>()];
     let numbers = [TypeId::of::<[f64; 2]>()];
     let whole = [
@@ -176,25 +163,19 @@ fn kind(option: &Arg) -> String {
         TypeId::of::<u16>(),
     ];
     let wholes = [TypeId::of::<[usize; 2]>(), TypeId::of::<[usize; 3]>()];
-    let names = parser.possible_values().map(|all| {
-        let all = all.map(|it| format!("\"{}\"", it.get_name()));
-        all.collect::<Vec<_>>().join(", ")
-    });
-    let form = option.get_value_names().unwrap_or_default().concat();
-    let one = match names.filter(|it| !it.is_empty()) {
-        Some(names) => format!("Literal[{names}]"),
-        None if is(&number) => "float | str".to_owned(),
-        None if is(&whole) => "int".to_owned(),
-        None if is(&wholes) => "Sequence[int] | str".to_owned(),
-        None if form == "N,M" => "int | Sequence[int] | str".to_owned(),
-        None if is(&numbers) || form.contains(',') => "Sequence[float | str] | str".to_owned(),
-        None => "str".to_owned(),
+    let one = match &option.words[..] {
+        [_, ..] => format!("Literal[\"{}\"]", option.words.join("\", \"")),
+        [] if is(&number) => "float | str".to_owned(),
+        [] if is(&whole) => "int".to_owned(),
+        [] if is(&wholes) => "Sequence[int] | str".to_owned(),
+        [] if form == "N,M" => "int | Sequence[int] | str".to_owned(),
+        [] if is(&numbers) || form.contains(',') => "Sequence[float | str] | str".to_owned(),
+        [] => "str".to_owned(),
     };
-    let can_stand_alone = option.get_num_args().is_some_and(|it| it.min_values() == 0);
-    match option.get_action() {
-        _ if can_stand_alone => format!("{one} | bool"),
-        ArgAction::Append => format!("{one} | Sequence[{one}]"),
-        _ => one,
+    match option.alone {
+        Some(_) => format!("{one} | bool"),
+        None if option.repeats => format!("{one} | Sequence[{one}]"),
+        None => one,
     }
 }
 

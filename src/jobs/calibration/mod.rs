@@ -21,11 +21,9 @@ mod lines;
 mod rows;
 pub mod strength;
 
-use clap::Args;
-
 use crate::design::{Design, DesignError};
 use crate::pipeline;
-use crate::request::{self, Unanswered};
+use crate::request::{self, Unanswered, options};
 use bonds::{PairTimes, TimesFit};
 use distances::{DistanceFit, PairDistances};
 use fit::{Fit, least_squares};
@@ -40,26 +38,27 @@ use physics::tile::Tile;
 pub use rows::{COLUMNS, Row, read_rows};
 use strength::StrengthFit;
 
-/// The options of a fit of kT to pairs.
-#[derive(Clone, Copy, Debug, PartialEq, Args)]
-pub struct PairsRequest {
-    /// Area per pair (m^2) [default: what the rim and the fixed tile leave of the design's table]
-    #[arg(long, value_name = "M2", value_parser = request::area)]
-    pub area: Option<f64>,
+options! {
+    /// The options of a fit of kT to pairs.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct PairsRequest {
+        /// Area per pair (m^2) [default: what the rim and the fixed tile leave of the design's table]
+        pub area: Option<f64> = value("M2", request::area),
 
-    /// Largest distance (m) of a pair that counts [default: where tiles are free]
-    ///
-    /// At larger distances the rim of the table biases the result.
-    #[arg(long, value_name = "R", value_parser = request::length)]
-    pub within: Option<f64>,
+        /// Largest distance (m) of a pair that counts [default: where tiles are free]
+        ///
+        /// At larger distances the rim of the table biases the result.
+        pub within: Option<f64> = value("R", request::length),
+    }
 }
 
-/// The options of a fit to forces and energies.
-#[derive(Clone, Copy, Debug, PartialEq, Args)]
-pub struct ForcesRequest {
-    /// Hold out one in N rows from the fit of shields [default: 5]
-    #[arg(long, value_name = "N", value_parser = request::whole(2, u16::MAX))]
-    pub hold_out: Option<u16>,
+options! {
+    /// The options of a fit to forces and energies.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct ForcesRequest {
+        /// Hold out one in N rows from the fit of shields [default: 5]
+        pub hold_out: Option<u16> = value("N", request::whole(2, u16::MAX)),
+    }
 }
 
 /// The result of a calibration.

@@ -1,79 +1,69 @@
 //! The request of an assessment.
 
-use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::Quantity;
 use crate::design::Design;
 use crate::pipeline::{self, Certify, Check, Survey};
-use crate::request::{self, Misused, of_keywords};
+use crate::request::{self, Misused, of_keywords, options};
 use crate::tolerance::{MakingErrors, NO_ERRORS};
 use physics::landscape::Claims;
 
 const DYNAMICS: &str = "\
-Check the barriers of bond and deepest trap with RUNS trajectories each [default: 1000]";
-
-const DYNAMICS_LONG: &str = "\
 Check the barriers of bond and deepest trap with RUNS trajectories each [default: 1000]
 
 1000 trajectories take one core-second, up to five for curved shapes. If a trajectory contradicts a \
 barrier, all results are still written and the exit status is 1.";
 
-/// The effort spent on a design: everything that determines an assessment besides the design and
-/// the seed.
-///
-/// Work is counted, so that results are the same on every machine.
-#[derive(Clone, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
-#[command(mut_arg("dynamics", |dynamics| dynamics.help(DYNAMICS).long_help(DYNAMICS_LONG)))]
-pub struct Thoroughness {
-    /// How thoroughly landscapes are surveyed.
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub survey: Survey,
-
-    /// Target width (J) of the certified bounds [default: 1/100 of the bond, or less]
+options! {
+    /// The effort spent on a design: everything that determines an assessment besides the design and
+    /// the seed.
     ///
-    /// The default is 1/100 of the bond's depth or 1/20 of the barrier, whichever is smaller.
-    #[arg(long, alias = "tolerance-J", value_name = "E_J", value_parser = request::energy)]
-    #[serde(rename = "tolerance_J")]
-    pub tolerance: Option<f64>,
+    /// Work is counted, so that results are the same on every machine.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Thoroughness {
+        /// How thoroughly landscapes are surveyed.
+        #[serde(flatten)]
+        pub survey: Survey = group(),
 
-    /// Most cells for the bounds of one barrier; 0: no bounds [default: 200000]
-    ///
-    /// The default is 0 for very many magnets.
-    #[arg(long, value_name = "N", value_parser = request::count_or_none)]
-    pub certify_cells: Option<usize>,
+        /// Target width (J) of the certified bounds [default: 1/100 of the bond, or less]
+        ///
+        /// The default is 1/100 of the bond's depth or 1/20 of the barrier, whichever is smaller.
+        #[serde(rename = "tolerance_J")]
+        pub tolerance: Option<f64> = value("E_J", request::energy).alias("tolerance_J"),
 
-    /// Most cells for the search for missed states; 0: no search [default: 300000]
-    ///
-    /// The default is 0 for very many magnets.
-    // For blocks one thirtieth, which takes about as long.
-    #[arg(long, value_name = "N", value_parser = request::count_or_none)]
-    pub complete_cells: Option<usize>,
+        /// Most cells for the bounds of one barrier; 0: no bounds [default: 200000]
+        ///
+        /// The default is 0 for very many magnets.
+        pub certify_cells: Option<usize> = value("N", request::count_or_none),
 
-    /// Whether moving tiles check the barriers.
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub check: Check,
+        /// Most cells for the search for missed states; 0: no search [default: 300000]
+        ///
+        /// The default is 0 for very many magnets.
+        // For blocks one thirtieth, which takes about as long.
+        pub complete_cells: Option<usize> = value("N", request::count_or_none),
 
-    /// The errors of making, for the share of pairs that work with them.
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub making: MakingErrors,
+        /// Whether moving tiles check the barriers.
+        #[serde(flatten)]
+        pub check: Check = group().helped("dynamics", DYNAMICS),
+
+        /// The errors of making, for the share of pairs that work with them.
+        #[serde(flatten)]
+        pub making: MakingErrors = group(),
+    }
 }
 
-/// The options of assessments, with the seed.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct Request {
-    /// How much work a design is worth.
-    #[command(flatten)]
-    pub thoroughness: Thoroughness,
+options! {
+    /// The options of assessments, with the seed.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Request {
+        /// How much work a design is worth.
+        pub thoroughness: Thoroughness = group(),
 
-    /// Random seed; the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = pipeline::Request::default().seed,
-          value_parser = request::seed)]
-    pub seed: u64,
+        /// Random seed; the same seed gives the same results
+        pub seed: u64 = value("N", request::seed).or(pipeline::Request::default().seed),
+    }
 }
 
 impl Thoroughness {

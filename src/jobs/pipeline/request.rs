@@ -1,112 +1,92 @@
 //! The request of an analysis: its options, their defaults, and what the report says of them.
 
-use clap::Args;
 use serde::{Deserialize, Serialize};
 
 use crate::design::Design;
-use crate::request;
+use crate::request::{self, Options, options};
 use physics::budget::Allowance;
 use physics::landscape::Claims;
 use physics::potential::MANY_PAIRS;
 
-/// Everything that determines the result of an analysis, besides the design. Its keys are those of
-/// `report.json`.
-///
-/// What is not given is filled in by [`Request::of`]; without that, it is as for ordinary designs.
-#[derive(Clone, Debug, PartialEq, Args, Serialize, Deserialize)]
-pub struct Request {
-    /// The thoroughness of the survey.
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub survey: Survey,
-
-    /// Whether moving tiles check the barriers.
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub check: Check,
-
-    /// Number of runs with consecutive seeds, to report each barrier's spread
-    #[arg(long, value_name = "R", default_value_t = Request::default().repeats, value_parser = repeats)]
-    pub repeats: usize,
-
-    /// Accept milestones by the Boltzmann rule at this energy (J), not the linear rule
-    #[arg(long, value_name = "E_J", value_parser = request::energy)]
-    #[serde(rename = "boltzmann_J")]
-    pub boltzmann: Option<f64>,
-
-    /// Thermal energy (J) of the transition probabilities [default: 1/100 of the bond]
-    #[arg(long, value_name = "E_J", value_parser = request::energy)]
-    #[serde(rename = "thermal_energy_J")]
-    pub thermal_energy: Option<f64>,
-
-    /// Target width (J) of the certified bounds [default: 1/100 of the bond, or less]
+options! {
+    /// Everything that determines the result of an analysis, besides the design. Its keys are those of
+    /// `report.json`.
     ///
-    /// The default is 1/100 of the bond's depth or 1/20 of the barrier, whichever is smaller.
-    #[arg(long, value_name = "E_J", value_parser = request::energy)]
-    #[serde(rename = "tolerance_J")]
-    pub tolerance: Option<f64>,
+    /// What is not given is filled in by [`Request::of`]; without that, it is as for ordinary designs.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    pub struct Request {
+        /// The thoroughness of the survey.
+        #[serde(flatten)]
+        pub survey: Survey = group(),
 
-    /// The effort of bounds of barriers.
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub certify: Certify,
+        /// Whether moving tiles check the barriers.
+        #[serde(flatten)]
+        pub check: Check = group(),
 
-    /// Most cells for the bounds of one barrier
-    // So that a hard one leaves work for the others.
-    #[arg(long, value_name = "N", default_value_t = Request::default().certify_cells,
-          value_parser = request::count_or_none)]
-    pub certify_cells: usize,
+        /// Number of runs with consecutive seeds, to report each barrier's spread
+        pub repeats: usize = value("R", repeats).or(1),
 
-    /// States, captures and barriers without proofs: in seconds, not minutes
-    ///
-    /// The same as --certify-work 0 --complete-work 0.
-    #[arg(long, conflicts_with_all = ["certify_work", "certify_seconds", "complete_work", "complete_seconds"])]
-    #[serde(skip)]
-    pub quick: bool,
+        /// Accept milestones by the Boltzmann rule at this energy (J), not the linear rule
+        #[serde(rename = "boltzmann_J")]
+        pub boltzmann: Option<f64> = value("E_J", request::energy),
 
-    /// Effort of the proof that no state is missing, in core-seconds; 0: none [default: 180]
-    ///
-    /// Counted in steps, not timed. The default is 0 for very many magnets.
-    #[arg(long, value_name = "W", value_parser = request::not_negative)]
-    pub complete_work: Option<f64>,
+        /// Thermal energy (J) of the transition probabilities [default: 1/100 of the bond]
+        #[serde(rename = "thermal_energy_J")]
+        pub thermal_energy: Option<f64> = value("E_J", request::energy),
 
-    /// Time limit (s) of that proof; 0: none [default: no limit]
-    ///
-    /// Wall-clock time, so two runs can differ.
-    #[arg(long, value_name = "S", value_parser = request::time_or_none)]
-    #[serde(rename = "complete_s")]
-    pub complete_seconds: Option<f64>,
+        /// Target width (J) of the certified bounds [default: 1/100 of the bond, or less]
+        ///
+        /// The default is 1/100 of the bond's depth or 1/20 of the barrier, whichever is smaller.
+        #[serde(rename = "tolerance_J")]
+        pub tolerance: Option<f64> = value("E_J", request::energy),
 
-    /// Search for traps below this fraction of the bond's energy
-    #[arg(long, value_name = "F", default_value_t = Request::default().complete_below,
-          value_parser = request::fraction)]
-    pub complete_below: f64,
+        /// The effort of bounds of barriers.
+        #[serde(flatten)]
+        pub certify: Certify = group(),
 
-    /// List traps whose escape barrier exceeds this fraction of the bond's energy
-    #[arg(long, value_name = "F", default_value_t = Request::default().complete_escape,
-          value_parser = request::fraction)]
-    pub complete_escape: f64,
+        /// Most cells for the bounds of one barrier
+        // So that a hard one leaves work for the others.
+        pub certify_cells: usize = value("N", request::count_or_none).or(1_000_000),
 
-    /// Most cells for the proof that no state is missing
-    #[arg(long, value_name = "N", default_value_t = Request::default().complete_cells,
-          value_parser = request::count_or_none)]
-    pub complete_cells: usize,
+        /// States, captures and barriers without proofs: in seconds, not minutes
+        ///
+        /// The same as --certify-work 0 --complete-work 0.
+        #[serde(skip)]
+        pub quick: bool = flag()
+            .conflicts(&["certify_work", "certify_seconds", "complete_work", "complete_seconds"]),
 
-    /// Random seed; the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = Request::default().seed, value_parser = request::seed)]
-    pub seed: u64,
+        /// Effort of the proof that no state is missing, in core-seconds; 0: none [default: 180]
+        ///
+        /// Counted in steps, not timed. The default is 0 for very many magnets.
+        pub complete_work: Option<f64> = value("W", request::not_negative),
 
-    /// Milestones added in each round around a pass between basins that has not converged.
-    #[arg(skip = Request::default().added_milestones)]
-    pub added_milestones: usize,
+        /// Time limit (s) of that proof; 0: none [default: no limit]
+        ///
+        /// Wall-clock time, so two runs can differ.
+        #[serde(rename = "complete_s")]
+        pub complete_seconds: Option<f64> = value("S", request::time_or_none),
 
-    /// Minima with an escape barrier below this fraction of the deepest energy are omitted.
-    #[arg(skip = Request::default().least_depth)]
-    pub least_depth: f64,
+        /// Search for traps below this fraction of the bond's energy
+        pub complete_below: f64 = value("F", request::fraction).or(0.01),
 
-    /// Which barriers are certified, and checked by moving tiles.
-    #[arg(skip = Claims::All)]
-    pub claims: Claims,
+        /// List traps whose escape barrier exceeds this fraction of the bond's energy
+        pub complete_escape: f64 = value("F", request::fraction).or(0.005),
+
+        /// Most cells for the proof that no state is missing
+        pub complete_cells: usize = value("N", request::count_or_none).or(4_000_000),
+
+        /// Random seed; the same seed gives the same results
+        pub seed: u64 = value("N", request::seed).or(1),
+
+        /// Milestones added in each round around a pass between basins that has not converged.
+        pub added_milestones: usize = Fixed(100),
+
+        /// Minima with an escape barrier below this fraction of the deepest energy are omitted.
+        pub least_depth: f64 = Fixed(1e-4),
+
+        /// Which barriers are certified, and checked by moving tiles.
+        pub claims: Claims = Fixed(Claims::All),
+    }
 }
 
 /// Default work of the certification, and of the proof that no state is missing, in core-seconds
@@ -121,28 +101,9 @@ const FAR_STARTS: usize = 1000;
 impl Default for Request {
     fn default() -> Self {
         Self {
-            survey: Survey {
-                milestones: Some(MILESTONES),
-                far_starts: Some(FAR_STARTS),
-                ..Survey::default()
-            },
-            check: Check::default(),
-            repeats: 1,
-            boltzmann: None,
-            thermal_energy: None,
-            tolerance: None,
             certify: Certify::of(WORK),
-            certify_cells: 1_000_000,
-            quick: false,
             complete_work: Some(WORK),
-            complete_seconds: None,
-            complete_below: 0.01,
-            complete_escape: 0.005,
-            complete_cells: 4_000_000,
-            seed: 1,
-            added_milestones: 100,
-            least_depth: 1e-4,
-            claims: Claims::All,
+            ..Self::with_defaults().surveyed(MILESTONES, FAR_STARTS)
         }
     }
 }
@@ -245,47 +206,33 @@ fn work(given: Option<f64>, seconds: Option<f64>, usual: Option<f64>) -> Option<
     given.or(if is_timed { Some(WORK) } else { usual })
 }
 
-/// The thoroughness of the survey.
-#[derive(Clone, Debug, PartialEq, Args, Serialize, Deserialize)]
-pub struct Survey {
-    /// Milestones of the roadmap [default: 8000; fewer for very many magnets]
-    #[arg(long, value_name = "N", value_parser = request::count)]
-    pub milestones: Option<usize>,
+options! {
+    /// The thoroughness of the survey.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    pub struct Survey {
+        /// Milestones of the roadmap [default: 8000; fewer for very many magnets]
+        pub milestones: Option<usize> = value("N", request::count),
 
-    /// Neighbours per milestone [default: e (1 + 1/3) ln N]
-    #[arg(long, value_name = "K", value_parser = request::count)]
-    pub neighbours: Option<usize>,
+        /// Neighbours per milestone [default: e (1 + 1/3) ln N]
+        pub neighbours: Option<usize> = value("K", request::count),
 
-    /// A barrier has converged when it changes by less than this fraction
-    #[arg(long, value_name = "F", default_value_t = Survey::default().settled,
-          value_parser = request::fraction)]
-    pub settled: f64,
+        /// A barrier has converged when it changes by less than this fraction
+        pub settled: f64 = value("F", request::fraction).or(0.005),
 
-    /// Far starts for the capture shares [default: 1000; fewer for very many magnets]
-    ///
-    /// Tiles start far apart at random poses; a capture share is the fraction that ends in a state.
-    #[arg(long, value_name = "N", value_parser = request::runs_or_none)]
-    pub far_starts: Option<usize>,
+        /// Far starts for the capture shares [default: 1000; fewer for very many magnets]
+        ///
+        /// Tiles start far apart at random poses; a capture share is the fraction that ends in a state.
+        pub far_starts: Option<usize> = value("N", request::runs_or_none),
 
-    /// Kinds of state to analyse, deepest first [default: all; fewer for very many magnets]
-    #[arg(long, alias = "most-kinds", value_name = "N", value_parser = request::count)]
-    #[serde(
-        default,
-        rename = "most_kinds",
-        skip_serializing_if = "Option::is_none"
-    )]
-    pub kinds: Option<usize>,
+        /// Kinds of state to analyse, deepest first [default: all; fewer for very many magnets]
+        #[serde(default, rename = "most_kinds", skip_serializing_if = "Option::is_none")]
+        pub kinds: Option<usize> = value("N", request::count).alias("most_kinds"),
+    }
 }
 
 impl Default for Survey {
     fn default() -> Self {
-        Self {
-            milestones: None,
-            neighbours: None,
-            settled: 0.005,
-            far_starts: None,
-            kinds: None,
-        }
+        Self::with_defaults()
     }
 }
 
@@ -313,16 +260,23 @@ impl Survey {
     }
 }
 
-/// Whether moving tiles check the barriers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
-pub struct Check {
-    /// Check every barrier with RUNS simulated trajectories started below it [default: 1000]
-    #[arg(long = "dynamics", id = "dynamics", alias = "dynamics-runs", value_name = "RUNS",
-          num_args = 0..=1, require_equals = true, default_missing_value = "1000", default_value = "0",
-          hide_default_value = true, value_parser = request::runs_or_none)]
-    // Settings of sweeps without the check keep their format.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub dynamics_runs: usize,
+options! {
+    /// Whether moving tiles check the barriers.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Check {
+        /// Check every barrier with RUNS simulated trajectories started below it [default: 1000]
+        ///
+        /// 1000 trajectories take about one core-second per barrier, up to five for curved shapes. The
+        /// paper's tile has 23 barriers. If a trajectory contradicts a barrier, all results are still
+        /// written, the contradiction is reported and the exit status is 1.
+        // Settings of sweeps without the check keep their format.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        pub dynamics_runs: usize = value("RUNS", request::runs_or_none)
+            .named("dynamics")
+            .alias("dynamics_runs")
+            .or(0)
+            .alone("1000"),
+    }
 }
 
 /// Largest number of runs with other seeds: each is a whole survey.
@@ -338,21 +292,21 @@ fn is_zero(runs: &usize) -> bool {
     *runs == 0
 }
 
-/// The effort of certification.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
-pub struct Certify {
-    /// Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]
-    ///
-    /// Counted in steps, not timed. The default is 0 for very many magnets.
-    #[arg(long, value_name = "W", value_parser = request::not_negative)]
-    pub certify_work: Option<f64>,
+options! {
+    /// The effort of certification.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Certify {
+        /// Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]
+        ///
+        /// Counted in steps, not timed. The default is 0 for very many magnets.
+        pub certify_work: Option<f64> = value("W", request::not_negative),
 
-    /// Time limit (s) of the bounds; 0: no bounds [default: no limit]
-    ///
-    /// Wall-clock time, so two runs can differ.
-    #[arg(long, value_name = "S", value_parser = request::time_or_none)]
-    #[serde(rename = "certify_s")]
-    pub certify_seconds: Option<f64>,
+        /// Time limit (s) of the bounds; 0: no bounds [default: no limit]
+        ///
+        /// Wall-clock time, so two runs can differ.
+        #[serde(rename = "certify_s")]
+        pub certify_seconds: Option<f64> = value("S", request::time_or_none),
+    }
 }
 
 impl Certify {

@@ -1,51 +1,40 @@
 //! The request of a barrier.
 
-use clap::Args;
-
 use crate::design::Design;
 use crate::pipeline::{self, Certify, Survey};
-use crate::request;
+use crate::request::{self, options};
 use crate::seated::seated;
 use physics::configuration::Configuration;
 use physics::landscape::minimax::End;
 use physics::observer::Observer;
 
 const WORK: &str = "\
-Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]";
-
-const WORK_LONG: &str = "\
 Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]
 
 Counted in steps, not timed.";
 
-/// The options of a query for one barrier.
-#[derive(Clone, Debug, PartialEq, Args)]
-#[command(mut_arg("certify_work", |work| work.help(WORK).long_help(WORK_LONG)))]
-pub struct Request {
-    /// Initial pose (m, m, rad)
-    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
-    pub from: Configuration,
+options! {
+    /// The options of a query for one barrier.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Request {
+        /// Initial pose (m, m, rad)
+        pub from: Configuration = value("X,Y,THETA", request::pose).signed(),
 
-    /// Final pose, or `free`: anywhere with the tiles far apart
-    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = end)]
-    pub to: End,
+        /// Final pose, or `free`: anywhere with the tiles far apart
+        pub to: End = value("X,Y,THETA", end).signed(),
 
-    /// Target width (J) of the bounds [default: 1/100 of the bond's depth]
-    #[arg(long, value_name = "E_J", value_parser = request::energy)]
-    pub tolerance: Option<f64>,
+        /// Target width (J) of the bounds [default: 1/100 of the bond's depth]
+        pub tolerance: Option<f64> = value("E_J", request::energy),
 
-    /// The effort of its bounds.
-    #[command(flatten)]
-    pub certify: Certify,
+        /// The effort of its bounds.
+        pub certify: Certify = group().helped("certify_work", WORK),
 
-    /// Milestones of the roadmap [default: 8000; fewer for very many magnets]
-    #[arg(long, value_name = "N", value_parser = request::count)]
-    pub milestones: Option<usize>,
+        /// Milestones of the roadmap [default: 8000; fewer for very many magnets]
+        pub milestones: Option<usize> = value("N", request::count),
 
-    /// Random seed
-    #[arg(long, value_name = "N", default_value_t = pipeline::Request::default().seed,
-          value_parser = request::seed)]
-    pub seed: u64,
+        /// Random seed
+        pub seed: u64 = value("N", request::seed).or(pipeline::Request::default().seed),
+    }
 }
 
 impl Request {

@@ -10,12 +10,10 @@ pub use table::{AtKt, StateRates};
 use std::convert::Infallible;
 use std::time::Instant;
 
-use clap::Args;
-
 use crate::design::Design;
 use crate::memory;
 use crate::pipeline;
-use crate::request::{self, Unanswered};
+use crate::request::{self, Unanswered, options};
 use crate::seated::seated;
 use physics::configuration::Configuration;
 use physics::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
@@ -39,53 +37,43 @@ const WORTH_TELLING: f64 = 30.0;
 /// Number of squares along x and y of the committor's map.
 const SQUARES: usize = 120;
 
-/// The options of rates between states, or of the exit from a pose.
-#[derive(Clone, Copy, Debug, PartialEq, Args)]
-pub struct Request {
-    /// Effective energy kT of shaking (J)
-    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
-    pub kt: f64,
+options! {
+    /// The options of rates between states, or of the exit from a pose.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Request {
+        /// Effective energy kT of shaking (J)
+        pub kt: f64 = value("E_J", request::shaking),
 
-    /// Drag rate (1/s); the drag coefficient is this times the mass
-    #[arg(long, value_name = "RATE", default_value_t = OVERDAMPED, value_parser = request::rate)]
-    pub drag: f64,
+        /// Drag rate (1/s); the drag coefficient is this times the mass
+        pub drag: f64 = value("RATE", request::rate).or(OVERDAMPED),
 
-    /// Energy (J) below which the tile counts as bound [default: with --start half the bond's, else half way up its barrier]
-    ///
-    /// The tile is bound in the basin of the bond or of a symmetric copy, below this energy. Without
-    /// --start the default is half way from the bond up to its lowest barrier.
-    #[arg(long, value_name = "E_J", allow_hyphen_values = true, value_parser = request::binding)]
-    pub basin_energy: Option<f64>,
+        /// Energy (J) below which the tile counts as bound [default: with --start half the bond's, else half way up its barrier]
+        ///
+        /// The tile is bound in the basin of the bond or of a symmetric copy, below this energy. Without
+        /// --start the default is half way from the bond up to its lowest barrier.
+        pub basin_energy: Option<f64> = value("E_J", request::binding).signed(),
 
-    /// Distance (m) between centres at which the tile is free [default: as in `analyse`]
-    #[arg(long, value_name = "R", value_parser = request::length)]
-    pub free_at: Option<f64>,
+        /// Distance (m) between centres at which the tile is free [default: as in `analyse`]
+        pub free_at: Option<f64> = value("R", request::length),
 
-    /// No longer accepted: the error says why
-    #[arg(long, hide = true, value_name = "REL", value_parser = refuse_bounds)]
-    certify: Option<Infallible>,
+        /// No longer accepted: the error says why
+        certify: Option<Infallible> = value("REL", refuse_bounds).hidden(),
 
-    /// Initial pose (m, m, rad); prints its mean exit time and exits
-    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
-    pub start: Option<Configuration>,
+        /// Initial pose (m, m, rad); prints its mean exit time and exits
+        pub start: Option<Configuration> = value("X,Y,THETA", request::pose).signed(),
 
-    /// Number of kinds of traps with rates, deepest first
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = request::count_or_none,
-          conflicts_with = "start")]
-    pub traps: usize,
+        /// Number of kinds of traps with rates, deepest first
+        pub traps: usize = value("N", request::count_or_none).or(3).conflicts(&["start"]),
 
-    /// Also simulate N bodies with inertia and print the ratio of mean exit times
-    #[arg(long, value_name = "N", requires = "start", value_parser = request::runs_of_a_mean)]
-    pub check: Option<usize>,
+        /// Also simulate N bodies with inertia and print the ratio of mean exit times
+        pub check: Option<usize> = value("N", request::runs_of_a_mean).requires("start"),
 
-    /// Coefficient of restitution in --check
-    #[arg(long, value_name = "E", requires = "check", default_value_t = 1.0,
-          value_parser = request::share)]
-    pub restitution: f64,
+        /// Coefficient of restitution in --check
+        pub restitution: f64 = value("E", request::share).or(1.0).requires("check"),
 
-    /// Random seed; the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
-    pub seed: u64,
+        /// Random seed; the same seed gives the same results
+        pub seed: u64 = value("N", request::seed).or(1),
+    }
 }
 
 /// Refuses the option of earlier versions.

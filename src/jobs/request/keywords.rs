@@ -1,101 +1,95 @@
 //! Requests from keyword arguments.
 
-use clap::error::{ContextKind, ContextValue};
-use clap::{Args, Command};
-
-/// An error in keyword arguments.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Misused {
-    /// There is no such argument.
-    #[error("there is no argument {0:?}; known: {known}", known = .1.join(", "))]
-    Unknown(String, Vec<String>),
-    /// An argument has an invalid value, is missing, or is not allowed.
-    #[error("{0}")]
-    Wrong(String),
-}
-
-/// The options of a request, as keywords.
-pub fn options<R: Args>() -> Vec<String> {
-    let command = R::augment_args(Command::new(""));
-    let named = command.get_arguments().filter_map(|one| one.get_long());
-    named.map(keyword).collect()
-}
-
-/// The keyword for an option as clap writes it: `--kt <E_J>`.
-fn keyword(option: &str) -> String {
-    let name = option.trim_start_matches("--");
-    let name = name.split([' ', '=', '[']).next().unwrap_or(name);
-    name.replace('-', "_")
-}
+use super::{Entry, Given, Misused, Options, Reader};
 
 /// Creates a request from keyword arguments, each with its values as on a command line: no values
 /// if the option is absent, an empty one for an option without a value.
 ///
 /// # Errors
 /// See [`Misused`].
-pub fn of_keywords<R: Args>(
-    given: impl IntoIterator<Item = (String, Vec<String>)>,
+pub fn of_keywords<R: Options>(
+    keywords: impl IntoIterator<Item = (String, Vec<String>)>,
 ) -> Result<R, Misused> {
-    let command = R::augment_args(Command::new("tilebind").no_binary_name(true));
-    let known = options::<R>();
-    let mut words = Vec::new();
-    for (key, values) in given {
-        let option = key.replace('_', "-");
-        let is_named = |one: &&clap::Arg| {
-            let aliases = one.get_all_aliases().unwrap_or_default();
-            one.get_long() == Some(&option) || aliases.contains(&&option[..])
-        };
-        if command.get_arguments().find(is_named).is_none() {
+    let table = R::table();
+    let mut given = Given::new();
+    for (key, texts) in keywords {
+        let is_called = |it: &&Entry| it.name == key || it.alias == Some(&key);
+        let Some(entry) = table.iter().find(is_called) else {
+            let known = table.iter().map(|it| it.name).collect();
             return Err(Misused::Unknown(key, known));
+        };
+        for text in texts {
+            let all = given.entry(entry.name).or_default();
+            if !all.is_empty() && !entry.repeats {
+                return Err(Misused::Wrong(format!(
+                    "{} can be given only once",
+                    entry.name
+                )));
+            }
+            all.extend(values(entry, text)?);
         }
-        words.extend(values.into_iter().map(|value| match value.is_empty() {
-            true => format!("--{option}"),
-            false => format!("--{option}={value}"),
-        }));
     }
-    let wrong = |error: clap::Error| Misused::Wrong(describe(&error));
-    let matches = command.try_get_matches_from(words).map_err(wrong)?;
-    R::from_arg_matches(&matches).map_err(wrong)
+    check(&table, &given)?;
+    R::read(given)
 }
 
-/// Clap's message about an option, rephrased for a keyword.
-fn describe(error: &clap::Error) -> String {
-    let text = |kind| match error.get(kind) {
-        Some(ContextValue::String(text)) => Some(text.clone()),
-        Some(ContextValue::Strings(all)) => Some(all.join(", ")),
-        _ => None,
+/// The values in a text, which are checked.
+fn values(entry: &Entry, text: String) -> Result<Vec<String>, Misused> {
+    let name = entry.name;
+    if text.is_empty() || entry.value.is_none() {
+        return match entry.alone.filter(|_| text.is_empty()) {
+            Some(alone) => Ok(vec![alone.to_owned()]),
+            None => Err(Misused::Wrong(format!("{name} = {text} is not possible"))),
+        };
+    }
+    let parts: Vec<&str> = match entry.is_list {
+        true => text.split(',').collect(),
+        false => vec![&text],
     };
-    let why = std::error::Error::source(error).map(ToString::to_string);
-    let argument = text(ContextKind::InvalidArg).map(|argument| {
-        let names = argument.split(", ").map(keyword);
-        names.collect::<Vec<_>>().join(", ")
-    });
-    match (argument, text(ContextKind::InvalidValue), why) {
-        (Some(argument), Some(value), Some(why)) => format!("{argument} = {value}: {why}"),
-        (Some(argument), Some(value), None) => format!("{argument} = {value} is not possible"),
-        (Some(argument), None, _) => match text(ContextKind::PriorArg) {
-            Some(other) => format!("{argument} cannot be given with {}", keyword(&other)),
-            None => format!("{argument} is needed"),
-        },
-        _ => error.to_string(),
+    let read = |part: &str| {
+        let read = entry.read(part);
+        read.map_err(|why| Misused::value(name, part, &why))
+    };
+    parts.into_iter().map(read).collect()
+}
+
+/// Checks which options are given together.
+fn check(table: &[Entry], given: &Given) -> Result<(), Misused> {
+    let is_given = |name: &&str| given.contains_key(name);
+    let all: Vec<&Entry> = table.iter().filter(|it| is_given(&it.name)).collect();
+    for (k, one) in all.iter().enumerate() {
+        let excludes = |other: &&&Entry| {
+            one.conflicts.contains(&other.name) || other.conflicts.contains(&one.name)
+        };
+        if let Some(other) = all[k + 1..].iter().find(excludes) {
+            let wrong = format!("{} cannot be given with {}", one.name, other.name);
+            return Err(Misused::Wrong(wrong));
+        }
+    }
+    let none_of = |others: &[&str]| !others.iter().any(is_given);
+    let required = |it: &&Entry| it.required_unless.is_some_and(none_of);
+    let required = table.iter().filter(required).map(|it| it.name);
+    let required = required.chain(all.iter().filter_map(|it| it.requires));
+    let missing: Vec<&str> = required.filter(|name| !is_given(name)).collect();
+    match &missing[..] {
+        [] => Ok(()),
+        names => Err(Misused::missing(names)),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::request::{count, positive};
+    use crate::request::{count, options, positive};
 
-    #[derive(Args, Debug, PartialEq)]
-    struct Asked {
-        #[arg(long, value_parser = positive, value_delimiter = ',', required = true)]
-        kt: Vec<f64>,
-        #[arg(long, default_value_t = 5, value_parser = count)]
-        most_runs: usize,
-        #[arg(long)]
-        whole: bool,
-        #[arg(long, conflicts_with = "whole")]
-        part: Option<String>,
+    options! {
+        #[derive(Debug, PartialEq)]
+        struct Asked {
+            kt: Vec<f64> = value("E_J", positive).list().required(),
+            most_runs: usize = value("N", count).or(5),
+            whole: bool = flag(),
+            part: Option<String> = value("PART", |text: &str| Ok(text.to_owned())).conflicts(&["whole"]),
+        }
     }
 
     fn asked(given: &[(&str, &[&str])]) -> Result<Asked, Misused> {
@@ -116,7 +110,8 @@ mod tests {
             part: None,
         };
         assert_eq!(found, expected);
-        assert_eq!(options::<Asked>(), ["kt", "most_runs", "whole", "part"]);
+        let names: Vec<&str> = Asked::table().iter().map(|it| it.name).collect();
+        assert_eq!(names, ["kt", "most_runs", "whole", "part"]);
     }
 
     #[test]
@@ -135,5 +130,6 @@ mod tests {
             describe(&[("kT", &["1"])]),
             "there is no argument \"kT\"; known: kt, most_runs, whole, part"
         );
+        assert_eq!(describe(&[("whole", &["x"])]), "whole = x is not possible");
     }
 }

@@ -1,18 +1,23 @@
 //! Requests: one struct per job, with the defaults, limits and help of its options.
 //!
-//! A request is a set of clap options ([`clap::Args`]): the command line parses it, and
-//! [`of_keywords`] takes the same options from Python's keyword arguments. Each option is declared
-//! once, so both reject the same values.
+//! A request is plain data that declares its options, see [`option`]: the command line is made from
+//! their table, and [`of_keywords`] takes the same options from Python's keyword arguments. Each
+//! option is declared once, so both reject the same values.
 
 mod keywords;
+mod misused;
 mod motion;
+pub mod option;
 mod shard;
 mod unanswered;
 mod values;
 mod word;
 
-pub use keywords::{Misused, of_keywords, options};
+pub use keywords::of_keywords;
+pub use misused::Misused;
 pub use motion::{ContactOptions, MotionOptions, fan};
+pub(crate) use option::options;
+pub use option::{Entry, Given, Options, Reader};
 pub use shard::{Shard, shard};
 pub use unanswered::Unanswered;
 pub use values::{

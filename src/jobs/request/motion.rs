@@ -1,42 +1,36 @@
 //! How tiles move on the table: the options shared by docking runs and many tiles.
 
-use clap::Args;
-
-use super::{MOST_FRICTION, share, up_to};
+use super::{MOST_FRICTION, options, share, up_to};
 use crate::design::{energy, frequency, length, rate};
 use physics::dynamics::{Fan, MotionSettings};
 
-/// What collisions take from the motion.
-#[derive(Clone, Copy, Debug, PartialEq, Args)]
-pub struct ContactOptions {
-    /// Coefficient of friction, tile on tile and tile on rim
-    #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
-          value_parser = up_to(MOST_FRICTION))]
-    pub friction: f64,
+options! {
+    /// What collisions take from the motion.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct ContactOptions {
+        /// Coefficient of friction, tile on tile and tile on rim
+        pub friction: f64 = value("MU", up_to(MOST_FRICTION)).or(MotionSettings::default().friction),
 
-    /// Coefficient of restitution
-    #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
-          value_parser = share)]
-    pub restitution: f64,
+        /// Coefficient of restitution
+        pub restitution: f64 = value("E", share).or(MotionSettings::default().restitution),
+    }
 }
 
-/// Drag, contact and fans.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct MotionOptions {
-    /// Drag rate (1/s), relative to the table or the fixed tile, not to the room
-    #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
-          value_parser = drag)]
-    pub drag: f64,
+options! {
+    /// Drag, contact and fans.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct MotionOptions {
+        /// Drag rate (1/s), relative to the table or the fixed tile, not to the room
+        pub drag: f64 = value("C", drag).or(MotionSettings::default().drag),
 
-    /// Friction and restitution.
-    #[command(flatten)]
-    pub contact: ContactOptions,
+        /// Friction and restitution.
+        pub contact: ContactOptions = group(),
 
-    /// Fan at X,Y (m) that repels tile centres with energy E_J and width S (m); repeatable
-    ///
-    /// The energy can oscillate with relative amplitude A at frequency F (Hz).
-    #[arg(long, value_name = "X,Y,E_J,S[,A,F]", allow_hyphen_values = true, value_parser = fan)]
-    pub fan: Vec<Fan>,
+        /// Fan at X,Y (m) that repels tile centres with energy E_J and width S (m); repeatable
+        ///
+        /// The energy can oscillate with relative amplitude A at frequency F (Hz).
+        pub fan: Vec<Fan> = value("X,Y,E_J,S[,A,F]", fan).signed(),
+    }
 }
 
 impl MotionOptions {

@@ -1,16 +1,11 @@
 //! Options that take one of a few words, which shells complete.
 
-use std::ffi::OsStr;
-
-use clap::builder::{PossibleValue, TypedValueParser};
-use clap::{Arg, Command, Error};
-
+use super::Reader;
 use crate::design::MagnetModel;
 
 /// A magnet model by its name in design files.
 pub fn model() -> Word<MagnetModel> {
-    let wrong = "a model is dipole or cuboid".to_owned();
-    Word::new(&MagnetModel::NAMES, wrong)
+    Word::new(&MagnetModel::NAMES, "a model is dipole or cuboid")
 }
 
 /// A parser of one of several names.
@@ -23,12 +18,16 @@ pub struct Word<T> {
 
 impl<T: Clone> Word<T> {
     /// A parser of these names; `wrong` is the message for any other word.
-    pub fn new(names: &[(&'static str, T)], wrong: String) -> Self {
+    pub fn new(names: &[(&'static str, T)], wrong: impl Into<String>) -> Self {
         Self {
             names: names.to_vec(),
-            wrong,
+            wrong: wrong.into(),
         }
     }
+}
+
+impl<T: Clone + Send + Sync + 'static> Reader for Word<T> {
+    type Value = T;
 
     fn read(&self, text: &str) -> Result<T, String> {
         self.names
@@ -37,24 +36,8 @@ impl<T: Clone> Word<T> {
             .map(|(_, meaning)| meaning.clone())
             .ok_or_else(|| self.wrong.clone())
     }
-}
 
-impl<T: Clone + Send + Sync + 'static> TypedValueParser for Word<T> {
-    type Value = T;
-
-    fn parse_ref(
-        &self,
-        command: &Command,
-        argument: Option<&Arg>,
-        value: &OsStr,
-    ) -> Result<T, Error> {
-        let word = self.clone();
-        (move |text: &str| word.read(text)).parse_ref(command, argument, value)
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(
-            self.names.iter().map(|(name, _)| PossibleValue::new(name)),
-        ))
+    fn words(&self) -> Vec<&'static str> {
+        self.names.iter().map(|(name, _)| *name).collect()
     }
 }

@@ -3,13 +3,13 @@
 use std::fmt;
 use std::str::FromStr;
 
-use clap::Args;
 use serde::{Deserialize, Serialize};
 
 use super::interval::Interval;
 use crate::comparison::quantity::{Measure, QUANTITIES};
 use crate::comparison::{Assessment, Quantity};
-use crate::{design, request};
+use crate::design;
+use crate::request::{self, options};
 
 /// Number of points that are tried if nothing else is asked for.
 const POINTS: usize = 60;
@@ -18,24 +18,22 @@ const MOST_POINTS: usize = 10_000;
 /// Largest number of objectives.
 const MOST_OBJECTIVES: usize = 2;
 
-/// The options of a search.
-#[derive(Clone, Debug, Default, PartialEq, Args)]
-pub struct Request {
-    /// Search for the largest value of a figure, such as bond_depth; two give their front
-    #[arg(long, value_name = "FIGURE", value_parser = largest)]
-    pub maximise: Vec<Objective>,
+options! {
+    /// The options of a search.
+    #[derive(Clone, Debug, Default, PartialEq)]
+    pub struct Request {
+        /// Search for the largest value of a figure, such as bond_depth; two give their front
+        pub maximise: Vec<Objective> = value("FIGURE", largest),
 
-    /// Search for the smallest value of a figure, such as trap_depth
-    #[arg(long, value_name = "FIGURE", value_parser = smallest)]
-    pub minimise: Vec<Objective>,
+        /// Search for the smallest value of a figure, such as trap_depth
+        pub minimise: Vec<Objective> = value("FIGURE", smallest),
 
-    /// Condition of a search, such as "captured > 0.5" or "bond_depth > 20 mJ"; may be repeated
-    #[arg(long, value_name = "CONDITION")]
-    pub subject: Vec<Condition>,
+        /// Condition of a search, such as "captured > 0.5" or "bond_depth > 20 mJ"; may be repeated
+        pub subject: Vec<Condition> = value("CONDITION", str::parse::<Condition>),
 
-    /// Number of designs that a search tries [default: 60]
-    #[arg(long, value_name = "N", value_parser = points)]
-    pub points: Option<usize>,
+        /// Number of designs that a search tries [default: 60]
+        pub points: Option<usize> = value("N", points),
+    }
 }
 
 fn points(text: &str) -> Result<usize, String> {

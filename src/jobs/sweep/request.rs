@@ -1,7 +1,5 @@
 //! The request of a sweep.
 
-use clap::Args;
-
 use super::error::PlanError;
 use super::plan::Plan;
 use super::refine::refined;
@@ -10,25 +8,24 @@ use super::store::Outcome;
 use super::vary::Axis;
 use crate::comparison;
 use crate::design::Design;
-use crate::request;
+use crate::request::{self, options};
 
 /// Number of rounds in which points are added.
 const ROUNDS: usize = 3;
 
-/// The options of a sweep, besides the designs and the varied keys.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct Request {
-    /// Add N points where the curves bend most (one varied number)
-    #[arg(long, value_name = "N", value_parser = request::count)]
-    pub refine: Option<usize>,
+options! {
+    /// The options of a sweep, besides the designs and the varied keys.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Request {
+        /// Add N points where the curves bend most (one varied number)
+        pub refine: Option<usize> = value("N", request::count),
 
-    /// Point to compare all points with: varied values (depth=0) or a design's name
-    #[arg(long, value_name = "POINT")]
-    pub baseline: Option<String>,
+        /// Point to compare all points with: varied values (depth=0) or a design's name
+        pub baseline: Option<String> = value("POINT", |text: &str| Ok(text.to_owned())),
 
-    /// The options of the assessments.
-    #[command(flatten)]
-    pub assessments: comparison::Request,
+        /// The options of the assessments.
+        pub assessments: comparison::Request = group(),
+    }
 }
 
 impl Request {

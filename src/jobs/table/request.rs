@@ -1,11 +1,9 @@
 //! The request of a table.
 
-use clap::Args;
-
 use super::Wanted;
 use crate::design::quantity::short;
 use crate::design::{angle, frequency, length};
-use crate::request::{self, MotionOptions, Shard};
+use crate::request::{self, MotionOptions, Shard, options};
 use physics::table::{Linear, Orbital, TableSettings};
 
 /// Largest radius of the table's circle (m).
@@ -21,83 +19,69 @@ const FASTEST_CIRCLE: f64 = 1e3;
 /// Number of samples if no frames are requested.
 const MOMENTS: f64 = 200.0;
 
-/// The options of a table.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct Request {
-    /// Tiles of each kind: fixed and moving kind of a design, or each tile of a set
-    ///
-    /// One number for a design of one kind. For several designs, give the numbers of one for all of
-    /// them, or those of each.
-    #[arg(long, value_name = "N,M", value_delimiter = ',', value_parser = request::count_or_none)]
-    pub count: Vec<usize>,
+options! {
+    /// The options of a table.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Request {
+        /// Tiles of each kind: fixed and moving kind of a design, or each tile of a set
+        ///
+        /// One number for a design of one kind. For several designs, give the numbers of one for all of
+        /// them, or those of each.
+        pub count: Vec<usize> = value("N,M", request::count_or_none).list(),
 
-    /// Duration of each run (s)
-    #[arg(long, value_name = "S", value_parser = request::time)]
-    pub time: f64,
+        /// Duration of each run (s)
+        pub time: f64 = value("S", request::time),
 
-    /// Number of runs, each from its own start
-    #[arg(long, value_name = "R", default_value_t = 1, value_parser = request::runs)]
-    pub runs: usize,
+        /// Number of runs, each from its own start
+        pub runs: usize = value("R", request::runs).or(1),
 
-    /// Compute only every nth run from the ith on, i/n; join all parts with --merge
-    #[arg(long, value_name = "i/n", value_parser = request::shard)]
-    pub shard: Option<Shard>,
+        /// Compute only every nth run from the ith on, i/n; join all parts with --merge
+        pub shard: Option<Shard> = value("i/n", request::shard),
 
-    /// Effective energy kT of shaking (J)
-    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
-    pub shaking: Option<f64>,
+        /// Effective energy kT of shaking (J)
+        pub shaking: Option<f64> = value("E_J", request::shaking),
 
-    /// Time between random kicks of the shaking (s) [default: 0.005; less for drag above 50]
-    ///
-    /// It does not depend on the step.
-    #[arg(long, value_name = "S", value_parser = request::time)]
-    pub correlation: Option<f64>,
+        /// Time between random kicks of the shaking (s) [default: 0.005; less for drag above 50]
+        ///
+        /// It does not depend on the step.
+        pub correlation: Option<f64> = value("S", request::time),
 
-    /// Move the table in a circle of radius A (m) at F revolutions per second, or with units: "10 mm,300 rpm"
-    ///
-    /// Places, velocities and drag are relative to the moving table.
-    #[arg(long, value_name = "A,F", value_parser = orbital)]
-    pub orbital: Option<Orbital>,
+        /// Move the table in a circle of radius A (m) at F revolutions per second, or with units: "10 mm,300 rpm"
+        ///
+        /// Places, velocities and drag are relative to the moving table.
+        pub orbital: Option<Orbital> = value("A,F", orbital),
 
-    /// Shake the table along a line: amplitude A (m), F periods per second, at ANGLE (rad) from the x axis, or
-    /// with units: "5 mm,10,90 deg"
-    #[arg(long, value_name = "A,F,ANGLE", allow_hyphen_values = true, value_parser = linear)]
-    pub linear: Option<Linear>,
+        /// Shake the table along a line: amplitude A (m), F periods per second, at ANGLE (rad) from the x axis, or
+        /// with units: "5 mm,10,90 deg"
+        pub linear: Option<Linear> = value("A,F,ANGLE", linear).signed(),
 
-    /// Dry friction of tiles on the table they lie on: Coulomb's coefficient, 0 for an air table
-    ///
-    /// A tile's weight presses evenly over its area. --orbital and --linear move the table beneath it.
-    #[arg(long, value_name = "MU", default_value_t = 0.0,
-          value_parser = request::up_to(request::MOST_FRICTION))]
-    pub table_friction: f64,
+        /// Dry friction of tiles on the table they lie on: Coulomb's coefficient, 0 for an air table
+        ///
+        /// A tile's weight presses evenly over its area. --orbital and --linear move the table beneath it.
+        pub table_friction: f64 = value("MU", request::up_to(request::MOST_FRICTION)).or(0.0),
 
-    /// How tiles move.
-    #[command(flatten)]
-    pub motion: MotionOptions,
+        /// How tiles move.
+        pub motion: MotionOptions = group(),
 
-    /// Longest step (s) [default: 0.0025 for tiles of 43 cm, less in proportion to smaller ones, or for fast drives]
-    ///
-    /// Steps in contact are shorter in proportion.
-    #[arg(long, value_name = "S", value_parser = step)]
-    pub step: Option<f64>,
+        /// Longest step (s) [default: 0.0025 for tiles of 43 cm, less in proportion to smaller ones, or for fast drives]
+        ///
+        /// Steps in contact are shorter in proportion.
+        pub step: Option<f64> = value("S", step),
 
-    /// Record the tiles' poses at this interval (s)
-    #[arg(long, value_name = "DT", value_parser = request::time)]
-    pub frames: Option<f64>,
+        /// Record the tiles' poses at this interval (s)
+        pub frames: Option<f64> = value("DT", request::time),
 
-    /// What is to be built: ring:8, chain:5, sheet:3x3, or the tiles of a start file
-    ///
-    /// Its yield is the share of all tiles that are in such structures, of the largest possible share.
-    #[arg(long, value_name = "ring:N|chain:N|sheet:RxC|FILE.csv", value_parser = Wanted::parse)]
-    pub target: Option<Wanted>,
+        /// What is to be built: ring:8, chain:5, sheet:3x3, or the tiles of a start file
+        ///
+        /// Its yield is the share of all tiles that are in such structures, of the largest possible share.
+        pub target: Option<Wanted> = value("ring:N|chain:N|sheet:RxC|FILE.csv", Wanted::parse),
 
-    /// Compare with the predictions of `tilebind bond` and `tilebind yield`, or of `tilebind assemble`
-    #[arg(long)]
-    pub compare: bool,
+        /// Compare with the predictions of `tilebind bond` and `tilebind yield`, or of `tilebind assemble`
+        pub compare: bool = flag(),
 
-    /// Random seed; a run depends only on it and on its own number
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
-    pub seed: u64,
+        /// Random seed; a run depends only on it and on its own number
+        pub seed: u64 = value("N", request::seed).or(1),
+    }
 }
 
 impl Request {

@@ -8,7 +8,7 @@ use super::{Request, of_assembly, of_designs};
 use crate::Refused;
 use crate::assembly::{self, growth::Site, kinetic::Growth};
 use crate::design::{Design, MagnetModel};
-use crate::request::{Misused, of_keywords};
+use crate::request::Options;
 use physics::observer::Silent;
 use physics::table::Crowd;
 
@@ -74,20 +74,13 @@ impl About {
         lattice: Option<[usize; 2]>,
     ) -> Result<(Self, Crowd), Refused> {
         let kt = request.shaking.unwrap_or(USUAL_KT);
-        let keywords = [
-            ("kt", kt.to_string()),
-            ("coverage", COVERAGE.to_string()),
-            ("seed", request.seed.to_string()),
-        ];
-        let keywords = keywords.map(|(key, value)| (key.to_owned(), vec![value]));
-        let asked = of_keywords(keywords).map_err(|error| match error {
-            Misused::Wrong(message) => message,
-            Misused::Unknown(key, _) => key,
-        })?;
         let asked = assembly::Request {
+            kt: Some(kt),
+            coverage: COVERAGE,
+            seed: request.seed,
             model,
             lattice,
-            ..asked
+            ..assembly::Request::with_defaults()
         };
         let set = asked.tile_set(file)?;
         let assembly = asked.build(&set, None, None, &Silent)?;

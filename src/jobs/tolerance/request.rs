@@ -1,61 +1,50 @@
 //! The request of a tolerance: the errors of making, and when a design works.
 
-use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use crate::request;
+use crate::request::{self, options};
 
 /// Largest standard deviation of a place or a gap (m): more is no error of making.
 const MOST_SHIFTED: f64 = 0.02;
 /// Largest standard deviation of an angle (rad), 45 degrees.
 const MOST_TURNED: f64 = std::f64::consts::FRAC_PI_4;
 
-/// The errors of making. Each is 0 if it is not stated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
-pub struct MakingErrors {
-    /// Error of the magnets' strength: standard deviation, such as 5%
-    #[arg(long, value_name = "F", value_parser = request::share)]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub strength: Option<f64>,
+options! {
+    /// The errors of making. Each is 0 if it is not stated.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct MakingErrors {
+        /// Error of the magnets' strength: standard deviation, such as 5%
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub strength: Option<f64> = value("F", request::share),
 
-    /// Error of the magnets' places, along and across the face: standard deviation, such as "0.3 mm"
-    #[arg(long, alias = "place-m", value_name = "L", value_parser = shift)]
-    #[serde(default, rename = "place_m", skip_serializing_if = "Option::is_none")]
-    pub place: Option<f64>,
+        /// Error of the magnets' places, along and across the face: standard deviation, such as "0.3 mm"
+        #[serde(default, rename = "place_m", skip_serializing_if = "Option::is_none")]
+        pub place: Option<f64> = value("L", shift).alias("place_m"),
 
-    /// Error of the magnets' axes: standard deviation, such as "3 deg"
-    #[arg(long, alias = "turn-rad", value_name = "A", value_parser = turn)]
-    #[serde(default, rename = "turn_rad", skip_serializing_if = "Option::is_none")]
-    pub turn: Option<f64>,
+        /// Error of the magnets' axes: standard deviation, such as "3 deg"
+        #[serde(default, rename = "turn_rad", skip_serializing_if = "Option::is_none")]
+        pub turn: Option<f64> = value("A", turn).alias("turn_rad"),
 
-    /// Gap left between touching faces by glue, paint or rough cuts, such as "0.1 mm"
-    #[arg(long, alias = "gap-m", value_name = "L", value_parser = shift)]
-    #[serde(default, rename = "gap_m", skip_serializing_if = "Option::is_none")]
-    pub gap: Option<f64>,
+        /// Gap left between touching faces by glue, paint or rough cuts, such as "0.1 mm"
+        #[serde(default, rename = "gap_m", skip_serializing_if = "Option::is_none")]
+        pub gap: Option<f64> = value("L", shift).alias("gap_m"),
 
-    /// Chance that a magnet is glued in with its poles exchanged, such as 0.01
-    #[arg(long, value_name = "P", value_parser = request::share)]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub flip: Option<f64>,
+        /// Chance that a magnet is glued in with its poles exchanged, such as 0.01
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub flip: Option<f64> = value("P", request::share),
 
-    /// Share of the strength's variance that all magnets of a draw have in common
-    #[arg(long, value_name = "F", value_parser = request::share)]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub batch: Option<f64>,
+        /// Share of the strength's variance that all magnets of a draw have in common
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub batch: Option<f64> = value("F", request::share),
 
-    /// Number of drawn pairs of tiles [default: 1000]
-    #[arg(long, value_name = "N", value_parser = draws)]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub draws: Option<usize>,
+        /// Number of drawn pairs of tiles [default: 1000]
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub draws: Option<usize> = value("N", draws),
 
-    /// Least ratio of the bond's depth to the deepest trap's with which a pair works [default: 1.5]
-    #[arg(long, alias = "least-selectivity", value_name = "R", value_parser = request::positive)]
-    #[serde(
-        default,
-        rename = "least_selectivity",
-        skip_serializing_if = "Option::is_none"
-    )]
-    pub selectivity: Option<f64>,
+        /// Least ratio of the bond's depth to the deepest trap's with which a pair works [default: 1.5]
+        #[serde(default, rename = "least_selectivity", skip_serializing_if = "Option::is_none")]
+        pub selectivity: Option<f64> = value("R", request::positive).alias("least_selectivity"),
+    }
 }
 
 /// Default number of draws.
@@ -103,26 +92,24 @@ impl MakingErrors {
     }
 }
 
-/// The options.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct Request {
-    /// The errors, and when a pair works.
-    #[command(flatten)]
-    pub making: MakingErrors,
+options! {
+    /// The options.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Request {
+        /// The errors, and when a pair works.
+        pub making: MakingErrors = group(),
 
-    /// Also count the draws whose deepest trap is deeper than this share of the nominal bond
-    ///
-    /// The default is 1 over --selectivity.
-    #[arg(long, value_name = "F", value_parser = request::share)]
-    pub beats: Option<f64>,
+        /// Also count the draws whose deepest trap is deeper than this share of the nominal bond
+        ///
+        /// The default is 1 over --selectivity.
+        pub beats: Option<f64> = value("F", request::share),
 
-    /// Number of draws that are analysed anew, with a full search of states
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = request::runs_or_none)]
-    pub checks: usize,
+        /// Number of draws that are analysed anew, with a full search of states
+        pub checks: usize = value("N", request::runs_or_none).or(2),
 
-    /// Random seed; the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
-    pub seed: u64,
+        /// Random seed; the same seed gives the same results
+        pub seed: u64 = value("N", request::seed).or(1),
+    }
 }
 
 /// A standard deviation of a length (m), or with a unit.

@@ -1,30 +1,25 @@
 //! The request of the crosstalk of a set of words.
 
-use clap::Args;
-
 use crate::Refused;
 use crate::design::{MagnetModel, WordSet};
-use crate::request;
+use crate::request::{self, options};
 use physics::observer::Observer;
 use physics::units::si;
 use physics::words::crosstalk::{Crosstalk, Proof, TOLERANCE};
 
-/// The options of the attraction of every two words over all poses.
-#[derive(Clone, Debug, Args)]
-pub struct CrosstalkRequest {
-    /// Prove that no attraction is stronger, to within E_J [default: 1/4 of a contact]
-    #[arg(long, value_name = "E_J", num_args = 0..=1, require_equals = true,
-          value_parser = request::energy)]
-    pub certify: Option<Option<f64>>,
+options! {
+    /// The options of the attraction of every two words over all poses.
+    #[derive(Clone, Debug)]
+    pub struct CrosstalkRequest {
+        /// Prove that no attraction is stronger, to within E_J [default: 1/4 of a contact]
+        pub certify: Option<Option<f64>> = value("E_J", request::energy).or_alone(),
 
-    /// Most cells for the proof
-    #[arg(long, alias = "cells", value_name = "N", default_value_t = 8_000_000, value_parser = request::count)]
-    pub certify_cells: usize,
+        /// Most cells for the proof
+        pub certify_cells: usize = value("N", request::count).alias("cells").or(8_000_000),
 
-    /// Magnet model, dipole or cuboid [default: the set's]
-    #[arg(long, value_name = "MODEL", value_parser = request::model(),
-          hide_possible_values = true)]
-    pub model: Option<MagnetModel>,
+        /// Magnet model, dipole or cuboid [default: the set's]
+        pub model: Option<MagnetModel> = value("MODEL", request::model()),
+    }
 }
 
 impl CrosstalkRequest {

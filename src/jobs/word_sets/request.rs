@@ -1,140 +1,114 @@
 //! The request of a search for words.
 
-use clap::Args;
-
 use super::least_spacing;
 use crate::design::MagnetModel;
-use crate::request::{self, Word};
+use crate::request::{self, Word, options};
 use physics::words::word::MOST_PLACES;
 use physics::words::{Bar, Constraints, FaceShape, Faces, Fault, Rules};
 
-/// The options of a search for words.
-#[derive(Clone, Debug, Args)]
-pub struct Request {
-    /// Magnets per word
-    #[arg(long, value_name = "L", value_parser = request::count, required_unless_present_any = ["slots", "magnets"])]
-    pub length: Option<usize>,
+options! {
+    /// The options of a search for words.
+    #[derive(Clone, Debug)]
+    pub struct Request {
+        /// Magnets per word
+        pub length: Option<usize> = value("L", request::count)
+            .required_unless(&["slots", "magnets"]),
 
-    /// Smallest gap, 0 to 1: find the largest set
-    #[arg(long, value_name = "G", value_parser = gap)]
-    pub gap: Option<f64>,
+        /// Smallest gap, 0 to 1: find the largest set
+        pub gap: Option<f64> = value("G", gap),
 
-    /// Number of words: find the set with the widest gap
-    #[arg(long, value_name = "M", value_parser = request::count, conflicts_with = "gap")]
-    pub count: Option<usize>,
+        /// Number of words: find the set with the widest gap
+        pub count: Option<usize> = value("M", request::count).conflicts(&["gap"]),
 
-    /// Count contacts: at most T more matches than mismatches in wrong meetings
-    #[arg(long, value_name = "T", value_parser = request::count_or_none,
-          conflicts_with_all = ["gap", "count"])]
-    pub contacts: Option<usize>,
+        /// Count contacts: at most T more matches than mismatches in wrong meetings
+        pub contacts: Option<usize> = value("T", request::count_or_none)
+            .conflicts(&["gap", "count"]),
 
-    /// Words that bind their own kind and nothing else: for one kind of tile
-    ///
-    /// There are no mates: every face can meet every face, and the bond is that of a word with
-    /// itself.
-    #[arg(long = "self", conflicts_with_all = ["faces", "continuous", "word_word", "word_mate",
-          "mate_mate"])]
-    pub own: bool,
+        /// Words that bind their own kind and nothing else: for one kind of tile
+        ///
+        /// There are no mates: every face can meet every face, and the bond is that of a word with
+        /// itself.
+        pub own: bool = flag().named("self")
+            .conflicts(&["faces", "continuous", "word_word", "word_mate", "mate_mate"]),
 
-    /// Which faces can meet: all, or mates (words meet only mates)
-    #[arg(long, value_name = "WHICH", default_value = "all", value_parser = faces(),
-          hide_possible_values = true)]
-    pub faces: Faces,
+        /// Which faces can meet: all, or mates (words meet only mates)
+        pub faces: Faces = value("WHICH", Word::new(&Faces::NAMES, "faces are all or mates")).or("all"),
 
-    /// Complementary shapes of the faces: none, shared or polar
-    ///
-    /// shared: all faces have one shape, which prevents slides. polar: words have knobs and mates have
-    /// slots.
-    #[arg(long, value_name = "KIND", default_value = "none", value_parser = shape(),
-          hide_possible_values = true)]
-    pub shape: FaceShape,
+        /// Complementary shapes of the faces: none, shared or polar
+        ///
+        /// shared: all faces have one shape, which prevents slides. polar: words have knobs and mates have
+        /// slots.
+        pub shape: FaceShape = value("KIND", shape()).or("none"),
 
-    /// Tiles can lie upside down: every face can also be turned over
-    #[arg(long)]
-    pub flip: bool,
+        /// Tiles can lie upside down: every face can also be turned over
+        pub flip: bool = flag(),
 
-    /// Spacing is part of the code: words have N positions, most of them empty
-    #[arg(long, value_name = "N", value_parser = request::count)]
-    pub slots: Option<usize>,
+        /// Spacing is part of the code: words have N positions, most of them empty
+        pub slots: Option<usize> = value("N", request::count),
 
-    /// Magnets per word with --slots or --continuous [default: --length]
-    #[arg(long, value_name = "K", value_parser = request::count)]
-    pub magnets: Option<usize>,
+        /// Magnets per word with --slots or --continuous [default: --length]
+        pub magnets: Option<usize> = value("K", request::count),
 
-    /// Place magnets anywhere along the face; needs --gap or --count
-    ///
-    /// Positions and poles are optimised together. Wrong meetings are searched over all poses,
-    /// including tilted ones.
-    #[arg(long, conflicts_with_all = ["slots", "contacts", "shape", "min_mismatch", "consecutive",
-          "min_bond", "tolerate", "word_word", "word_mate", "mate_mate"])]
-    pub continuous: bool,
+        /// Place magnets anywhere along the face; needs --gap or --count
+        ///
+        /// Positions and poles are optimised together. Wrong meetings are searched over all poses,
+        /// including tilted ones.
+        pub continuous: bool = flag().conflicts(&[
+            "slots", "contacts", "shape", "min_mismatch", "consecutive", "min_bond", "tolerate",
+            "word_word", "word_mate", "mate_mate",
+        ]),
 
-    /// Face length (m) with --continuous [default: the design's, or 0.43]
-    #[arg(long, value_name = "M", value_parser = request::length, requires = "continuous")]
-    pub face: Option<f64>,
+        /// Face length (m) with --continuous [default: the design's, or 0.43]
+        pub face: Option<f64> = value("M", request::length).requires("continuous"),
 
-    /// Keep the gap even if one magnet per face is missing or flipped: missing=1 or flipped=1
-    ///
-    /// Bonds and wrong meetings are evaluated with the worst such fault on every face.
-    #[arg(long, value_name = "FAULT", value_parser = fault(), conflicts_with = "contacts",
-          hide_possible_values = true)]
-    pub tolerate: Option<Fault>,
+        /// Keep the gap even if one magnet per face is missing or flipped: missing=1 or flipped=1
+        ///
+        /// Bonds and wrong meetings are evaluated with the worst such fault on every face.
+        pub tolerate: Option<Fault> = value("FAULT", fault()).conflicts(&["contacts"]),
 
-    /// Distance between positions (m) [default: the design's, or 0.04]
-    ///
-    /// With --continuous, the smallest distance.
-    #[arg(long, value_name = "M", value_parser = request::length)]
-    pub pitch: Option<f64>,
+        /// Distance between positions (m) [default: the design's, or 0.04]
+        ///
+        /// With --continuous, the smallest distance.
+        pub pitch: Option<f64> = value("M", request::length),
 
-    /// As many north poles as south poles, or one more
-    #[arg(long)]
-    pub balanced: bool,
+        /// As many north poles as south poles, or one more
+        pub balanced: bool = flag(),
 
-    /// Longest run of equal poles
-    #[arg(long, value_name = "N", value_parser = request::count)]
-    pub max_run: Option<usize>,
+        /// Longest run of equal poles
+        pub max_run: Option<usize> = value("N", request::count),
 
-    /// Smallest numbers of mismatches: words aligned, word and complement aligned, any slide
-    ///
-    /// A: between two aligned words. C: between an aligned word and complement. S: of either at any
-    /// slide, where overhanging magnets count as mismatches.
-    #[arg(long, value_name = "A,C,S", value_parser = mismatches)]
-    pub min_mismatch: Option<[usize; 3]>,
+        /// Smallest numbers of mismatches: words aligned, word and complement aligned, any slide
+        ///
+        /// A: between two aligned words. C: between an aligned word and complement. S: of either at any
+        /// slide, where overhanging magnets count as mismatches.
+        pub min_mismatch: Option<[usize; 3]> = value("A,C,S", mismatches),
 
-    /// Range of the longest run of consecutive matches of two words over all slides
-    #[arg(long, value_name = "A:B", value_parser = whole_range)]
-    pub consecutive: Option<[usize; 2]>,
+        /// Range of the longest run of consecutive matches of two words over all slides
+        pub consecutive: Option<[usize; 2]> = value("A:B", whole_range),
 
-    /// Smallest depth of a bond (J)
-    #[arg(long, value_name = "E_J", value_parser = request::energy)]
-    pub min_bond: Option<f64>,
+        /// Smallest depth of a bond (J)
+        pub min_bond: Option<f64> = value("E_J", request::energy),
 
-    /// Range of the lowest energy (J) of two words over all slides
-    #[arg(long, value_name = "E_J:E_J", value_parser = range, allow_hyphen_values = true)]
-    pub word_word: Option<[f64; 2]>,
+        /// Range of the lowest energy (J) of two words over all slides
+        pub word_word: Option<[f64; 2]> = value("E_J:E_J", range).signed(),
 
-    /// Range of the lowest energy (J) of a word and another word's mate
-    #[arg(long, value_name = "E_J:E_J", value_parser = range, allow_hyphen_values = true)]
-    pub word_mate: Option<[f64; 2]>,
+        /// Range of the lowest energy (J) of a word and another word's mate
+        pub word_mate: Option<[f64; 2]> = value("E_J:E_J", range).signed(),
 
-    /// Range of the lowest energy (J) of two mates
-    #[arg(long, value_name = "E_J:E_J", value_parser = range, allow_hyphen_values = true)]
-    pub mate_mate: Option<[f64; 2]>,
+        /// Range of the lowest energy (J) of two mates
+        pub mate_mate: Option<[f64; 2]> = value("E_J:E_J", range).signed(),
 
-    /// Magnet model, dipole or cuboid [default: the design's]
-    #[arg(long, value_name = "MODEL", value_parser = request::model(),
-          hide_possible_values = true)]
-    pub model: Option<MagnetModel>,
+        /// Magnet model, dipole or cuboid [default: the design's]
+        pub model: Option<MagnetModel> = value("MODEL", request::model()),
 
-    /// Search effort in core-seconds, counted in steps
-    ///
-    /// Steps are counted, not timed, so the same effort gives the same words on any machine.
-    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::time)]
-    pub seconds: f64,
+        /// Search effort in core-seconds, counted in steps
+        ///
+        /// Steps are counted, not timed, so the same effort gives the same words on any machine.
+        pub seconds: f64 = value("S", request::time).or(20.0),
 
-    /// Random seed; the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
-    pub seed: u64,
+        /// Random seed; the same seed gives the same results
+        pub seed: u64 = value("N", request::seed).or(1),
+    }
 }
 
 impl Request {
@@ -244,20 +218,15 @@ pub fn gap(text: &str) -> Result<f64, String> {
 
 /// A complementary shape.
 pub fn shape() -> Word<FaceShape> {
-    Word::new(
-        &FaceShape::NAMES,
-        "a shape is none, shared or polar".to_owned(),
-    )
-}
-
-fn faces() -> Word<Faces> {
-    Word::new(&Faces::NAMES, "faces are all or mates".to_owned())
+    Word::new(&FaceShape::NAMES, "a shape is none, shared or polar")
 }
 
 fn fault() -> Word<Fault> {
-    let wrong = "tolerate missing=1 or flipped=1".to_owned();
     let short = [("missing", Fault::Missing), ("flipped", Fault::Flipped)];
-    Word::new(&[Fault::NAMES, short].concat(), wrong)
+    Word::new(
+        &[Fault::NAMES, short].concat(),
+        "tolerate missing=1 or flipped=1",
+    )
 }
 
 fn mismatches(text: &str) -> Result<[usize; 3], String> {

@@ -1,9 +1,7 @@
 //! The options of the workshop files.
 
-use clap::Args;
-
 use super::error::PartError;
-use crate::request;
+use crate::request::{self, options};
 
 /// Largest kerf and clearance (m): larger ones were meant in millimetres.
 const LONGEST: f64 = 0.01;
@@ -11,43 +9,38 @@ const LONGEST: f64 = 0.01;
 /// The usual gap between magnet and pocket on each side (m).
 pub const CLEARANCE: f64 = 1e-4;
 
-/// The options of the workshop files.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct Request {
-    /// Width of the cut (m), or with a unit
-    ///
-    /// Outlines are offset outwards by half of it.
-    #[arg(long, value_name = "M", default_value = "0", value_parser = small)]
-    pub kerf: f64,
+options! {
+    /// The options of the workshop files.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Request {
+        /// Width of the cut (m), or with a unit
+        ///
+        /// Outlines are offset outwards by half of it.
+        pub kerf: f64 = value("M", small).or("0"),
 
-    /// Gap between magnet and pocket on each side (m), or with a unit
-    #[arg(long, value_name = "M", default_value = "0.1 mm", value_parser = small)]
-    pub clearance: f64,
+        /// Gap between magnet and pocket on each side (m), or with a unit
+        pub clearance: f64 = value("M", small).or("0.1 mm"),
 
-    /// Copies of each kind of tile, nested on sheets
-    #[arg(long, value_name = "N", value_parser = copies, conflicts_with = "count")]
-    pub copies: Option<usize>,
+        /// Copies of each kind of tile, nested on sheets
+        pub copies: Option<usize> = value("N", copies).conflicts(&["count"]),
 
-    /// Copies of the fixed tile and of the moving one, nested on sheets
-    ///
-    /// One number if both tiles are equal; of several designs or a tile set one for each kind of tile.
-    #[arg(long, value_name = "N,M", value_parser = counts)]
-    pub count: Option<Counts>,
+        /// Copies of the fixed tile and of the moving one, nested on sheets
+        ///
+        /// One number if both tiles are equal; of several designs or a tile set one for each kind of tile.
+        pub count: Option<Counts> = value("N,M", counts),
 
-    /// Size of a sheet of material: "600x400 mm" [default: 600x400 mm, if there are copies]
-    #[arg(long, value_name = "SIZE", value_parser = sheet)]
-    pub sheet: Option<SheetSize>,
+        /// Size of a sheet of material: "600x400 mm" [default: 600x400 mm, if there are copies]
+        pub sheet: Option<SheetSize> = value("SIZE", sheet),
 
-    /// Gap between parts on a sheet, and to its edges (m), or with a unit
-    #[arg(long, value_name = "M", default_value = "2 mm", value_parser = small)]
-    pub spacing: f64,
+        /// Gap between parts on a sheet, and to its edges (m), or with a unit
+        pub spacing: f64 = value("M", small).or("2 mm"),
 
-    /// Thickness of the layers of which a tile is glued, lowest first: "4 mm,4 mm"
-    ///
-    /// One part and file for each: pockets are cut through the layers that hold the magnets, and the
-    /// others are lids.
-    #[arg(long, value_name = "M,M", value_parser = layers)]
-    pub layers: Option<Layers>,
+        /// Thickness of the layers of which a tile is glued, lowest first: "4 mm,4 mm"
+        ///
+        /// One part and file for each: pockets are cut through the layers that hold the magnets, and the
+        /// others are lids.
+        pub layers: Option<Layers> = value("M,M", layers),
+    }
 }
 
 /// Numbers of copies.

@@ -9,12 +9,11 @@
 
 use std::f64::consts::TAU;
 
-use clap::{Args, ValueEnum};
 use nalgebra::DMatrix;
 
 use super::{Request, YieldError};
 use crate::pipeline::Analysis;
-use crate::request::{self, ContactOptions};
+use crate::request::{self, ContactOptions, Word, options};
 use physics::configuration::Configuration;
 use physics::dynamics::MotionSettings;
 use physics::dynamics::docking::{self, Arrivals, Caught, DockingError, DockingSettings, Starts};
@@ -27,37 +26,34 @@ use physics::problem::Problem;
 /// Two configurations closer than this (m, metric of the space) are the same state.
 const SAME: f64 = 5e-3;
 
-/// The method for attachment rates, and the motion of tiles.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct AttachmentOptions {
-    /// Docking runs per kT
-    #[arg(long, value_name = "N", default_value_t = 400, value_parser = request::runs)]
-    pub runs: usize,
+options! {
+    /// The method for attachment rates, and the motion of tiles.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct AttachmentOptions {
+        /// Docking runs per kT
+        pub runs: usize = value("N", request::runs).or(400),
 
-    /// Repeat the docking runs, up to ten times in all, until so many attached to the bond
-    ///
-    /// 100 determine the attachment rate to 20 %; 0: no repeats.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = request::runs_or_none)]
-    pub attachments: usize,
+        /// Repeat the docking runs, up to ten times in all, until so many attached to the bond
+        ///
+        /// 100 determine the attachment rate to 20 %; 0: no repeats.
+        pub attachments: usize = value("N", request::runs_or_none).or(0),
 
-    /// Duration of each docking run (s)
-    #[arg(long, value_name = "S", default_value_t = 10.0,
-          value_parser = crate::docking::duration)]
-    pub duration: f64,
+        /// Duration of each docking run (s)
+        pub duration: f64 = value("S", crate::docking::duration).or(10.0),
 
-    /// Source of attachment rates
-    ///
-    /// docking: docking runs. overdamped: overdamped motion of both tiles.
-    #[arg(long = "rates", value_enum, default_value_t)]
-    pub source: RateSource,
+        /// Source of attachment rates: docking or overdamped
+        ///
+        /// docking: counted in docking runs of tiles with inertia, lossy contact and drag. overdamped:
+        /// overdamped motion solved on a mesh, which ignores --runs, --duration, --friction and
+        /// --restitution.
+        pub source: RateSource = value("SOURCE", source()).named("rates").or("docking"),
 
-    /// Drag rate (1/s) [default: 0.005 for docking runs, 50 for overdamped motion]
-    #[arg(long, value_name = "C", value_parser = request::rate)]
-    pub drag: Option<f64>,
+        /// Drag rate (1/s) [default: 0.005 for docking runs, 50 for overdamped motion]
+        pub drag: Option<f64> = value("C", request::rate),
 
-    /// Friction and restitution.
-    #[command(flatten)]
-    pub contact: ContactOptions,
+        /// Friction and restitution.
+        pub contact: ContactOptions = group(),
+    }
 }
 
 impl AttachmentOptions {
@@ -123,13 +119,20 @@ impl AttachmentOptions {
 }
 
 /// The source of attachment rates.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RateSource {
-    /// Counted in docking runs of tiles with inertia, lossy contact and drag
-    #[default]
+    /// Counted in docking runs of tiles with inertia, lossy contact and drag.
     Docking,
-    /// Overdamped motion solved on a mesh; ignores --runs, --duration, --friction, --restitution
+    /// Overdamped motion solved on a mesh.
     Overdamped,
+}
+
+fn source() -> Word<RateSource> {
+    let names = [
+        ("docking", RateSource::Docking),
+        ("overdamped", RateSource::Overdamped),
+    ];
+    Word::new(&names, "a source is docking or overdamped")
 }
 
 /// Numbers of attachments of a pair on the design's table, by kind of state.

@@ -15,13 +15,11 @@ mod outcome;
 mod rows;
 mod schedule;
 
-use clap::Args;
-
 use crate::design::Design;
 use crate::docking;
 use crate::memory;
 use crate::pipeline;
-use crate::request::{self, Unanswered};
+use crate::request::{self, Unanswered, options};
 use attachment::AttachmentOptions;
 pub use attachment::RateSource;
 pub use outcome::{KindRates, Yield};
@@ -42,37 +40,31 @@ const MOST_SETTINGS: usize = 20;
 /// Largest number of tiles.
 const MOST_TILES: usize = 10_000;
 
-/// The options.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct Request {
-    /// Number of tiles on the table, half of each kind unless both are one
-    #[arg(long, value_name = "N", value_parser = tiles)]
-    pub tiles: usize,
+options! {
+    /// The options.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Request {
+        /// Number of tiles on the table, half of each kind unless both are one
+        pub tiles: usize = value("N", tiles),
 
-    /// How long the table is shaken (s)
-    #[arg(long, value_name = "S", value_parser = request::time)]
-    pub time: f64,
+        /// How long the table is shaken (s)
+        pub time: f64 = value("S", request::time),
 
-    /// Effective energy kT of shaking (J); several: find the best and a schedule
-    #[arg(long = "kt", value_name = "E_J[,E_J...]", value_parser = request::shaking,
-          value_delimiter = ',', required = true)]
-    pub kts: Vec<f64>,
+        /// Effective energy kT of shaking (J); several: find the best and a schedule
+        pub kts: Vec<f64> = value("E_J[,E_J...]", request::shaking).named("kt").list().required(),
 
-    /// Fraction of the table covered by tiles
-    #[arg(long, value_name = "F", default_value_t = 0.3, value_parser = request::fraction)]
-    pub coverage: f64,
+        /// Fraction of the table covered by tiles
+        pub coverage: f64 = value("F", request::fraction).or(0.3),
 
-    /// Docking runs for each kT, or another source of attachment rates
-    #[command(flatten)]
-    pub method: AttachmentOptions,
+        /// Docking runs for each kT, or another source of attachment rates
+        pub method: AttachmentOptions = group(),
 
-    /// Runs of the exact simulation that checks the result; 0: none
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = request::runs_or_none)]
-    pub simulations: usize,
+        /// Runs of the exact simulation that checks the result; 0: none
+        pub simulations: usize = value("N", request::runs_or_none).or(1000),
 
-    /// Random seed; the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
-    pub seed: u64,
+        /// Random seed; the same seed gives the same results
+        pub seed: u64 = value("N", request::seed).or(1),
+    }
 }
 
 impl Request {

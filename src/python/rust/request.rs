@@ -1,15 +1,14 @@
 //! Requests from keyword arguments: the options of the program, with their limits and defaults.
 
-use clap::Args;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyString};
-use tilebind::request::{Misused, of_keywords};
+use tilebind::request::{Misused, Options, of_keywords};
 
 use crate::{convert, fault};
 
 /// A request from keyword arguments; `None` means the default.
-pub fn request<R: Args>(given: Option<&Bound<'_, PyDict>>) -> PyResult<R> {
+pub fn request<R: Options>(given: Option<&Bound<'_, PyDict>>) -> PyResult<R> {
     let mut words = Vec::new();
     for (key, value) in given.into_iter().flatten() {
         let key: String = key.extract()?;
@@ -28,7 +27,7 @@ pub fn request<R: Args>(given: Option<&Bound<'_, PyDict>>) -> PyResult<R> {
 }
 
 /// The same with a positional argument.
-pub fn request_with<'py, R: Args>(
+pub fn request_with<'py, R: Options>(
     py: Python<'py>,
     given: Option<&Bound<'py, PyDict>>,
     key: &str,
