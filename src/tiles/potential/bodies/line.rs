@@ -61,26 +61,33 @@ pub fn integral(
     all: &[Placed],
 ) -> Integral {
     let mut nodes = Vec::with_capacity(USUAL);
-    for &Placed {
-        centres: [first, second],
-        share,
-        offset,
-    } in all
-    {
+    for placed in all {
+        let Placed {
+            centres: [first, second],
+            share,
+            offset,
+        } = *placed;
         let [own, others] = match disc_moves {
             true => [second, first],
             false => [first, second],
         };
         let at = |face: &Face, centre| Face { centre, ..*face };
         let from = own - others;
-        angles(&at(disc, own), radius, &at(other, others), |phi, weight| {
-            nodes.push(Node {
-                phi,
-                weight: share * weight,
-                from: from.into(),
-                lever: if disc_moves { offset } else { -offset }.into(),
-            });
-        });
+        let lever = if disc_moves { offset } else { -offset };
+        angles(
+            LOST,
+            &at(disc, own),
+            radius,
+            &at(other, others),
+            |phi, weight| {
+                nodes.push(Node {
+                    phi,
+                    weight: share * weight,
+                    from: from.into(),
+                    lever: lever.into(),
+                });
+            },
+        );
     }
     Level::best().run(Line {
         axis: disc.frame[2],
@@ -103,7 +110,7 @@ struct Node {
 }
 
 /// As many nodes as faces that do not nearly touch need.
-const USUAL: usize = 40;
+pub const USUAL: usize = 40;
 
 /// A disc's axis and the other face.
 struct Line<'a> {
@@ -179,9 +186,9 @@ impl Task for Line<'_> {
     }
 }
 
-/// Calls `each` with angles phi (rad) in [0, pi / 2] and their weights: the value at `pi - phi` is the
-/// complex conjugate.
-fn angles(disc: &Face, radius: f64, other: &Face, mut each: impl FnMut(f64, f64)) {
+/// Calls `each` with angles phi (rad) in [0, pi / 2] and their weights, for about this relative error: the value
+/// at `pi - phi` is the complex conjugate.
+pub fn angles(lost: f64, disc: &Face, radius: f64, other: &Face, mut each: impl FnMut(f64, f64)) {
     let normal = disc.frame[2];
     let corners = other.corners(disc.centre);
     let singular: ArrayVec<Complex<f64>, 12> = corners
@@ -196,7 +203,7 @@ fn angles(disc: &Face, radius: f64, other: &Face, mut each: impl FnMut(f64, f64)
     let nearest = singular.iter().map(|place| half_axis(*place));
     let cosh = nearest.fold(f64::INFINITY, f64::min);
     let ln_rho = libm::log(cosh + half_axis_across(cosh));
-    let steps = (-libm::log(LOST) / (2.0 * ln_rho)).ceil().max(STEPS[0]);
+    let steps = (-libm::log(lost) / (2.0 * ln_rho)).ceil().max(STEPS[0]);
     if steps <= STEPS[1] {
         // Equal steps from 0 to pi; the one in the middle is its own image.
         let step = PI / steps;

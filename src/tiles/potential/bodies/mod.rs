@@ -28,7 +28,8 @@
 //! first term of this series, at every distance.
 //!
 //! Bounds of derivatives are in `limits`; for those over whole cells see
-//! [`bounds`](super::bounds), which has the pairs one by one from `single`, and those of upright discs and
+//! [`bounds`](super::bounds), which has the pairs one by one from `single`, with second and third derivatives of discs that
+//! lie from `lying_discs`, and those of upright discs and
 //! dipoles, whose energy depends on their distance alone, from `radial`.
 
 mod complex;
@@ -38,6 +39,7 @@ mod elliptic;
 mod face;
 mod limits;
 mod line;
+mod lying_discs;
 mod near;
 mod nearby;
 mod panels;
@@ -50,6 +52,7 @@ mod sum;
 mod tests;
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use nalgebra::{Vector2, Vector3};
 
@@ -149,7 +152,11 @@ pub struct BodyPotential {
     pairs: Vec<Vec<Option<Pairs>>>,
     lever: Lever,
     feature: f64,
+    /// Different from that of any other potential.
+    number: u64,
 }
+
+static NUMBER: AtomicU64 = AtomicU64::new(0);
 
 /// The magnets of a tile, and groups of them.
 #[derive(Clone, Debug)]
@@ -262,6 +269,7 @@ impl BodyPotential {
             moving,
             lever,
             feature,
+            number: NUMBER.fetch_add(1, Ordering::Relaxed),
         }
     }
 

@@ -1,6 +1,5 @@
 //! The energy of two magnets close to each other, by their charged faces.
 
-use arrayvec::ArrayVec;
 use nalgebra::Vector2;
 
 use super::Body;
@@ -38,7 +37,7 @@ fn block(body: &Body) -> Block {
 }
 
 /// The charge densities' product, times `mu0 / (4 pi)` (J/m^3).
-fn strength(first: &Body, second: &Body) -> f64 {
+pub fn strength(first: &Body, second: &Body) -> f64 {
     MU0_OVER_4PI * first.moment / first.volume() * second.moment / second.volume()
 }
 
@@ -67,39 +66,39 @@ fn standing(first: &Body, second: &Body) -> PairEnergy {
 }
 
 fn lying(first: &Body, second: &Body) -> PairEnergy {
-    let face = |body: &Body, side: f64| {
-        let [length, width, height] = body.size;
-        let shape = match body.shape {
-            Shape::Disc => Charged::Disc(width / 2.0),
-            Shape::Block => Charged::Rectangle([width / 2.0, height / 2.0]),
-        };
-        let offset = body.direction * (side * length / 2.0);
-        (
-            Face::upright(body.position + offset, body.direction, shape),
-            offset,
-        )
-    };
-    let mut places = ArrayVec::<_, 4>::new();
-    for own in [1.0, -1.0] {
-        let (from, _) = face(first, own);
-        for side in [1.0, -1.0] {
-            let (mut to, offset) = face(second, side);
-            let outwards = first.direction * own;
-            let height = (to.centre - from.centre).xy().dot(&outwards);
-            let apart = APART * first.size[1];
-            if height.abs() < apart && first.direction.perp(&second.direction).abs() < APART {
-                let shift = outwards * (apart - height);
-                to.centre += nalgebra::Vector3::new(shift.x, shift.y, 0.0);
-            }
-            places.push(Placed {
-                centres: [from.centre, to.centre],
-                share: own * side,
-                offset,
-            });
-        }
-    }
-    let [from, to] = [first, second].map(|body| face(body, 1.0).0);
+    let [from, to] = [first, second].map(upright);
+    let places = pole_places(first, second);
     scaled(&integral(&from, &to, &places), strength(first, second))
+}
+
+/// A face of a magnet that lies, at its middle.
+pub fn upright(body: &Body) -> Face {
+    let [_, width, height] = body.size;
+    let shape = match body.shape {
+        Shape::Disc => Charged::Disc(width / 2.0),
+        Shape::Block => Charged::Rectangle([width / 2.0, height / 2.0]),
+    };
+    Face::upright(body.position, body.direction, shape)
+}
+
+/// The places of both faces of one magnet that lies and those of another one.
+pub fn pole_places(first: &Body, second: &Body) -> [Placed; 4] {
+    [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(|[own, side]| {
+        let [from, offset] = [(first, own), (second, side)]
+            .map(|(body, side)| body.direction * (side * body.size[0] / 2.0));
+        let [from, mut to] = [first.position + from, second.position + offset];
+        let outwards = first.direction * own;
+        let height = (to - from).dot(&outwards);
+        let apart = APART * first.size[1];
+        if height.abs() < apart && first.direction.perp(&second.direction).abs() < APART {
+            to += outwards * (apart - height);
+        }
+        Placed {
+            centres: [from, to].map(|centre| centre.push(0.0)),
+            share: own * side,
+            offset,
+        }
+    })
 }
 
 /// The energy of faces of a strength (J/m^3).

@@ -1,9 +1,10 @@
 //! The pairs of two tiles' magnets one by one, as bounds over cells need them.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use nalgebra::{Complex, Vector2};
 
+use super::lying_discs;
 use super::near::exact;
 use super::{Alike, Body, BodyPotential, Pairs};
 use crate::configuration::Configuration;
@@ -23,31 +24,59 @@ pub(in crate::potential) struct Single<'a> {
     pub series: PairEnergy,
     pub is_far: bool,
     pairs: &'a Pairs,
-    coefficients: &'a RefCell<SharedSeries>,
+    shared: &'a SharedSeries,
 }
 
-/// The coefficients of the series of two groups: at the angle between them, which all of their pairs share,
-/// and at another one.
+/// What the pairs of two groups share: the coefficients of their series at the angle between them, with more
+/// derivatives of these, and those at another angle.
 struct SharedSeries {
-    still: Known,
-    turned: Known,
-    /// Derivatives at the former.
-    derivatives: AngleDerivatives,
+    still: RefCell<Known>,
+    derivatives: RefCell<AngleDerivatives>,
+    turned: RefCell<Known>,
 }
 
 impl SharedSeries {
     fn none() -> Self {
         Self {
-            still: Known::none(),
-            turned: Known::none(),
-            derivatives: AngleDerivatives::none(),
+            still: RefCell::new(Known::none()),
+            derivatives: RefCell::new(AngleDerivatives::none()),
+            turned: RefCell::new(Known::none()),
         }
     }
+}
 
-    /// Forgets what was of another angle.
-    fn forget(&mut self) {
-        self.still.forget();
-        self.derivatives.forget();
+/// What was computed last of a potential, at a turn (rad) of its moving tile. Cells that follow each other
+/// often share it.
+struct Last {
+    potential: u64,
+    theta: f64,
+    groups: Vec<SharedSeries>,
+}
+
+thread_local! {
+    static LAST: Cell<Option<Last>> = const { Cell::new(None) };
+}
+
+impl Last {
+    /// At this turn.
+    fn take(potential: &BodyPotential, theta: f64) -> Self {
+        let last = LAST.take().filter(|it| it.potential == potential.number);
+        let mut last = last.unwrap_or_else(|| Self {
+            potential: potential.number,
+            theta,
+            groups: potential
+                .of_groups()
+                .map(|_| SharedSeries::none())
+                .collect(),
+        });
+        if last.theta.to_bits() != theta.to_bits() {
+            last.theta = theta;
+            for shared in &mut last.groups {
+                shared.still.get_mut().forget();
+                shared.derivatives.get_mut().forget();
+            }
+        }
+        last
     }
 }
 
@@ -63,43 +92,44 @@ impl Single<'_> {
     /// The energies with the second magnet moved in several ways (m), and turned about its centre (rad).
     pub fn moved<const N: usize>(&self, ways: [Vector2<f64>; N], turn: f64) -> [PairEnergy; N] {
         let (sin, cos) = libm::sincos(turn);
-        let turned = self.second.moved([cos, sin], Vector2::zeros());
+        let second = self.second.moved([cos, sin], Vector2::zeros());
         let places = ways.map(|way| self.second.position + way);
         let ways = places.map(|place| place - self.first.position);
         let far = &self.pairs.far;
         if ways.iter().all(|way| way.norm_squared() >= far.near()) {
-            let SharedSeries {
-                still,
-                turned: other,
-                ..
-            } = &mut *self.coefficients.borrow_mut();
+            let SharedSeries { still, turned, .. } = self.shared;
             let known = match turn == 0.0 {
                 true => still,
-                false => {
-                    other.forget();
-                    other
-                }
+                false => turned,
             };
+            let known = &mut *known.borrow_mut();
+            if turn != 0.0 {
+                known.forget();
+            }
             return Level::best().run(Several {
                 form: far,
                 known,
-                axes: [self.first.direction, turned.direction].map(complex),
+                axes: [self.first.direction, second.direction].map(complex),
                 moments: self.first.moment * self.second.moment,
                 ways: ways.map(complex),
             });
         }
-        places.map(|position| exact(&self.first, &Body { position, ..turned }))
+        places.map(|position| exact(&self.first, &Body { position, ..second }))
+    }
+
+    /// The energy with its derivatives up to the third, of two discs that lie.
+    pub fn derived(&self) -> (PairEnergy, Derivatives) {
+        lying_discs::derived(&self.first, &self.second)
     }
 
     /// Second and third derivatives of this many terms of the series.
     pub fn derivatives(&self, terms: usize) -> Derivatives {
-        let axis = complex(self.first.direction);
-        let turn = complex(self.second.direction) * axis.conj();
-        let known = &mut self.coefficients.borrow_mut().derivatives;
         Level::best().run(AtPlace {
-            coefficients: known.up_to(&self.pairs.far.series, turn, terms),
+            series: &self.pairs.far.series,
+            known: &mut self.shared.still.borrow_mut(),
+            derivatives: &mut self.shared.derivatives.borrow_mut(),
             terms,
-            axis,
+            axes: [self.first.direction, self.second.direction].map(complex),
             way: complex(self.second.position - self.first.position),
             moments: self.first.moment * self.second.moment,
         })
@@ -120,9 +150,8 @@ impl BodyPotential {
         mut each: impl FnMut(&Single),
     ) {
         let (sin, cos) = libm::sincos(q.theta);
-        let coefficients = RefCell::new(SharedSeries::none());
-        for ([first, second], pairs) in self.of_groups() {
-            coefficients.borrow_mut().forget();
+        let last = Last::take(self, q.theta);
+        for (([first, second], pairs), shared) in self.of_groups().zip(&last.groups) {
             let turned = second.like.moved([cos, sin], Vector2::zeros());
             if skipped(&first.like, &turned) {
                 continue;
@@ -143,21 +172,24 @@ impl BodyPotential {
                     series: lane.pair,
                     is_far: lane.square >= pairs.far.near(),
                     pairs,
-                    coefficients: &coefficients,
+                    shared,
                 });
             };
             let groups = [&first.members, &second.members];
             Level::best().run(Far {
                 facing: Facing::new(&pairs.far, groups, q, Complex::new(cos, sin)),
+                known: &shared.still,
                 each: &mut found,
             });
         }
+        LAST.set(Some(last));
     }
 }
 
 /// The energies of all pairs of two groups, see [`Facing::for_each`].
 struct Far<'a> {
     facing: Facing<'a>,
+    known: &'a RefCell<Known>,
     each: &'a mut dyn FnMut([usize; 2], &Lane),
 }
 
@@ -166,6 +198,6 @@ impl Task for Far<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        self.facing.for_each::<L, true>(l, self.each);
+        self.facing.for_each::<L, true>(l, self.known, self.each);
     }
 }

@@ -1,5 +1,7 @@
 //! The sum over all pairs of blocks at one configuration.
 
+use std::cell::RefCell;
+
 use nalgebra::{Complex, Vector3};
 
 use super::block::BlockPair;
@@ -206,7 +208,8 @@ impl<const SLOPE: bool> Task for Each<'_, SLOPE> {
         for moving in &potential.moving_groups {
             for fixed in &potential.fixed_groups {
                 let facing = potential.facing([fixed, moving], self.q, Complex::new(cos, sin));
-                facing.for_each::<L, SLOPE>(l, |[i, j], lane| {
+                let known = RefCell::new(Known::none());
+                facing.for_each::<L, SLOPE>(l, &known, |[i, j], lane| {
                     let (first, second) = (fixed.members[i], moving.members[j]);
                     self.out[second * potential.fixed.len() + first] =
                         if lane.square < facing.form.near() {

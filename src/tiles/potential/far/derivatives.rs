@@ -8,7 +8,7 @@
 //! (-1)^(a+b) (mu)_a (nu)_b w^-a conj(w)^-b,
 //! ```
 //!
-//! with rising factorials; by the angle beta between the magnets, C_kl does what [`AngleDerivatives`] says.
+//! with rising factorials; by the angle beta between the magnets, C_kl has derivatives of its own ([`AngleDerivatives`]).
 //! For a sum S of terms T the derivatives of its real part hence are `(S_ab + conj(S_ba)) / 2`, which is the same
 //! power of w times
 //!
@@ -19,14 +19,14 @@
 use nalgebra::Complex;
 
 use super::multipole::{MOST_TERMS, Multipole, ROOM, index};
-use crate::potential::simd::Level;
+use super::rows::Known;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
-/// C_kl and their first three derivatives by beta, of the terms that are known: real and imaginary parts.
+/// The second and third derivatives of C_kl by beta, of the terms that are known: real and imaginary parts.
 #[derive(Clone, Debug)]
 pub struct AngleDerivatives {
-    parts: [[[f64; ROOM]; 2]; 4],
+    parts: [[[f64; ROOM]; 2]; 2],
     terms: usize,
 }
 
@@ -85,7 +85,7 @@ pub struct Derivatives {
 impl AngleDerivatives {
     pub fn none() -> Self {
         Self {
-            parts: [[[0.0; ROOM]; 2]; 4],
+            parts: [[[0.0; ROOM]; 2]; 2],
             terms: 0,
         }
     }
@@ -95,96 +95,76 @@ impl AngleDerivatives {
         self.terms = 0;
     }
 
-    /// Those of this many terms of a series, at `turn` = e^(i beta), at which all are that are known.
-    pub fn up_to(&mut self, series: &Multipole, turn: Complex<f64>, terms: usize) -> &Self {
-        if self.terms < terms {
-            self.terms = terms;
-            Level::best().run(AtAngle {
-                series,
-                turn,
-                found: self,
-            });
-        }
-        self
-    }
-}
-
-/// Computes [`AngleDerivatives`].
-struct AtAngle<'a> {
-    series: &'a Multipole,
-    turn: Complex<f64>,
-    found: &'a mut AngleDerivatives,
-}
-
-impl Task for AtAngle<'_> {
-    type Output = ();
-
+    /// Computes those of this many terms of a series, at `turn` = e^(i beta), at which all are that are known.
     #[inline(always)]
-    fn run<L: Lanes>(self, l: L) {
-        let terms = self.found.terms;
-        let (turns, count) = self.series.turns(self.turn, terms);
-        for i in (0..index(terms, 0)).step_by(WIDTH) {
-            let mut parts = [[l.splat(0.0); 2]; 4];
-            for (j, phase) in turns[..count].iter().enumerate() {
-                let (sum, difference) = self.series.with_order(j);
+    fn up_to<L: Lanes>(&mut self, l: L, series: &Multipole, turn: Complex<f64>, terms: usize) {
+        if self.terms >= terms {
+            return;
+        }
+        let turns = series.turns(turn, terms);
+        for (i, orders) in series.vectors(self.terms..terms) {
+            let mut parts = [[l.splat(0.0); 2]; 2];
+            for (j, phase) in turns[..orders].iter().enumerate() {
+                let (sum, difference) = series.with_order(j);
                 let (sum, difference) = (l.load(&sum[i..]), l.load(&difference[i..]));
-                let order = self.series.order(j);
-                // i times the order times the phase, again and again.
-                let mut phase = *phase;
-                for part in &mut parts {
-                    part[0] = l.mul_add(sum, l.splat(phase.re), part[0]);
-                    part[1] = l.mul_add(difference, l.splat(phase.im), part[1]);
-                    phase = Complex::new(-phase.im * order, phase.re * order);
-                }
+                // Twice and three times i l' times the phase.
+                let order = series.order(j);
+                let second = phase * -(order * order);
+                let third = Complex::new(-second.im * order, second.re * order);
+                parts[0][0] = l.mul_add(sum, l.splat(second.re), parts[0][0]);
+                parts[0][1] = l.mul_add(difference, l.splat(second.im), parts[0][1]);
+                parts[1][0] = l.mul_add(sum, l.splat(third.re), parts[1][0]);
+                parts[1][1] = l.mul_add(difference, l.splat(third.im), parts[1][1]);
             }
-            for (part, found) in parts.into_iter().zip(&mut self.found.parts) {
+            for (part, found) in parts.into_iter().zip(&mut self.parts) {
                 l.store(part[0], &mut found[0][i..]);
                 l.store(part[1], &mut found[1][i..]);
             }
         }
+        self.terms = terms;
     }
 }
 
 /// Computes [`Derivatives`] by the first `terms` terms.
 pub struct AtPlace<'a> {
-    pub coefficients: &'a AngleDerivatives,
+    pub series: &'a Multipole,
+    /// What is known of the coefficients at the angle between the magnets, and of their derivatives.
+    pub known: &'a mut Known,
+    pub derivatives: &'a mut AngleDerivatives,
     pub terms: usize,
-    /// The direction of the first magnet.
-    pub axis: Complex<f64>,
+    /// The directions of both magnets.
+    pub axes: [Complex<f64>; 2],
     /// From the first magnet to the second (m).
     pub way: Complex<f64>,
     /// The product of their moments (A^2 m^4).
     pub moments: f64,
 }
 
-impl AtPlace<'_> {
-    /// The terms from number i on, derived by beta so often.
-    #[inline(always)]
-    fn term<L: Lanes>(&self, l: L, turned: usize, i: usize, place: [L::F; 2]) -> [L::F; 2] {
-        let [re, im] = &self.coefficients.parts[turned];
-        l.complex_product([l.load(&re[i..]), l.load(&im[i..])], place)
-    }
+/// The terms from number i on, by their coefficients, at places.
+#[inline(always)]
+fn term<L: Lanes>(l: L, [re, im]: [&[f64; ROOM]; 2], i: usize, place: [L::F; 2]) -> [L::F; 2] {
+    l.complex_product([l.load(&re[i..]), l.load(&im[i..])], place)
+}
 
-    /// `r^-n e^(-i l phi)` of each term, for `1 / r` and e^(i phi).
-    #[inline(always)]
-    fn places(&self, inverse: f64, phase: Complex<f64>) -> [[f64; ROOM]; 2] {
-        let mut phases = [Complex::new(1.0, 0.0); MOST_TERMS + 1];
-        let step = (phase * phase).conj();
-        for half in 1..=self.terms {
-            phases[half] = phases[half - 1] * step;
-        }
-        let mut places = [[0.0; ROOM]; 2];
-        let square = inverse * inverse;
-        let mut scale = square * inverse;
-        for k in 0..self.terms {
-            for (half, phase) in phases[..k + 2].iter().enumerate() {
-                places[0][index(k, half)] = scale * phase.re;
-                places[1][index(k, half)] = scale * phase.im;
-            }
-            scale *= square;
-        }
-        places
+/// `r^-n e^(-i l phi)` of each of this many terms, for `1 / r` and e^(i phi).
+#[inline(always)]
+fn places(terms: usize, inverse: f64, phase: Complex<f64>) -> [[f64; ROOM]; 2] {
+    let mut phases = [Complex::new(1.0, 0.0); MOST_TERMS + 1];
+    let step = (phase * phase).conj();
+    for half in 1..=terms {
+        phases[half] = phases[half - 1] * step;
     }
+    let mut places = [[0.0; ROOM]; 2];
+    let square = inverse * inverse;
+    let mut scale = square * inverse;
+    for k in 0..terms {
+        for (half, phase) in phases[..k + 2].iter().enumerate() {
+            places[0][index(k, half)] = scale * phase.re;
+            places[1][index(k, half)] = scale * phase.im;
+        }
+        scale *= square;
+    }
+    places
 }
 
 impl Task for AtPlace<'_> {
@@ -192,34 +172,40 @@ impl Task for AtPlace<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Derivatives {
-        let way = self.way * self.axis.conj();
+        let Self { series, terms, .. } = self;
+        let [axis, other] = self.axes;
+        let turn = other * axis.conj();
+        let known = self.known.up_to::<L, true>(l, series, turn, terms);
+        self.derivatives.up_to(l, series, turn, terms);
+        let [twice, thrice] = &self.derivatives.parts;
+        let way = self.way * axis.conj();
         let inverse = 1.0 / way.norm_sqr().sqrt();
         let phase = way * inverse;
-        let places = self.places(inverse, phase);
+        let places = places(terms, inverse, phase);
         let zero = Sum([l.splat(0.0); 2]);
         let [mut ww, mut wc, mut www, mut wwc] = [zero; 4];
         let [mut wt, mut wct, mut wwt] = [zero; 3];
         let [mut tt, mut wtt, mut ttt] = [zero; 3];
-        for i in (0..index(self.terms, 0)).step_by(WIDTH) {
+        for i in (0..index(terms, 0)).step_by(WIDTH) {
             let place = [l.load(&places[0][i..]), l.load(&places[1][i..])];
-            let term = self.term(l, 0, i, place);
-            wc.add_real(l, 2, i, term[0]);
-            ww.add(l, 3, i, term);
-            wwc.add(l, 4, i, term);
-            www.add(l, 5, i, term);
-            let term = self.term(l, 1, i, place);
-            wt.add(l, 1, i, term);
-            wct.add_real(l, 2, i, term[0]);
-            wwt.add(l, 3, i, term);
-            let term = self.term(l, 2, i, place);
-            tt.add_real(l, 0, i, term[0]);
-            wtt.add(l, 1, i, term);
-            let term = self.term(l, 3, i, place);
-            ttt.add_real(l, 0, i, term[0]);
+            let still = term(l, [&known.re, &known.im], i, place);
+            wc.add_real(l, 2, i, still[0]);
+            ww.add(l, 3, i, still);
+            wwc.add(l, 4, i, still);
+            www.add(l, 5, i, still);
+            let once = term(l, [&known.turn_re, &known.turn_im], i, place);
+            wt.add(l, 1, i, once);
+            wct.add_real(l, 2, i, once[0]);
+            wwt.add(l, 3, i, once);
+            let twice = term(l, [&twice[0], &twice[1]], i, place);
+            tt.add_real(l, 0, i, twice[0]);
+            wtt.add(l, 1, i, twice);
+            let thrice = term(l, [&thrice[0], &thrice[1]], i, place);
+            ttt.add_real(l, 0, i, thrice[0]);
         }
         // From w in the first magnet's frame to that on the table.
         let scale = -MU0_OVER_4PI * self.moments;
-        let by_w = -(phase.conj() * inverse * self.axis.conj());
+        let by_w = -(phase.conj() * inverse * axis.conj());
         let by_both = inverse * inverse;
         let one = by_w * scale;
         let two = one * by_w;
@@ -264,13 +250,13 @@ impl<F: Copy> Sum<F> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::potential) mod tests {
     use nalgebra::Vector2;
 
     use super::*;
     use crate::potential::MagnetModel;
     use crate::potential::bodies::{Body, exact, series_of};
-    use crate::potential::far::PairEnergy;
+    use crate::potential::simd::Level;
     use crate::tile::magnet::Shape;
 
     fn body(shape: Shape, stands: bool, position: Vector2<f64>, turn: f64) -> Body {
@@ -287,6 +273,63 @@ mod tests {
         }
     }
 
+    /// How far they are from differences of the exact energies' slopes over a step (m) and a turn (rad), as a share
+    /// of what an energy (J) gives that changes over a length (m).
+    pub fn off_differences(
+        found: &Derivatives,
+        [first, second]: [&Body; 2],
+        [h, turn]: [f64; 2],
+        [scale, length]: [f64; 2],
+    ) -> [f64; 10] {
+        // Slopes by w and by the angle with the second magnet moved and turned.
+        let at = |step: Complex<f64>, turn: f64| -> (Complex<f64>, f64) {
+            let (sin, cos) = libm::sincos(turn);
+            let turned = second.moved([cos, sin], Vector2::zeros());
+            let position = second.position + Vector2::new(step.re, step.im);
+            let there = exact(first, &Body { position, ..turned });
+            (
+                Complex::new(there.gradient.x, -there.gradient.y) / 2.0,
+                there.slope,
+            )
+        };
+        let (one, i, none) = (
+            Complex::new(h, 0.0),
+            Complex::new(0.0, h),
+            Complex::default(),
+        );
+        let [x, y, t] = [(one, 0.0), (i, 0.0), (none, turn)]
+            .map(|(step, turn)| [-2.0, -1.0, 1.0, 2.0].map(|by| at(step * by, turn * by)));
+        let here = at(none, 0.0);
+        let first_of =
+            |[a, b, c, d]: [Complex<f64>; 4], h: f64| ((c - b) * 8.0 - (d - a)) / (12.0 * h);
+        let second_of = |[a, b, c, d]: [Complex<f64>; 4], here: Complex<f64>, h: f64| {
+            ((b + c) * 16.0 - (a + d) - here * 30.0) / (12.0 * h * h)
+        };
+        let real = |v: f64| Complex::new(v, 0.0);
+        let slopes = |of: &[(Complex<f64>, f64); 4]| of.map(|it| it.0);
+        let turns = |of: &[(Complex<f64>, f64); 4]| of.map(|it| real(it.1));
+        let i = Complex::<f64>::i();
+        let [by_x, by_y] = [&x, &y].map(|of| first_of(slopes(of), h));
+        let [xx, yy] = [&x, &y].map(|of| second_of(slopes(of), here.0, h));
+        let [xxt, yyt] = [&x, &y].map(|of| second_of(turns(of), real(here.1), h).re);
+        let tt = |of, here| second_of(of, here, turn);
+        [
+            ((found.ww, (by_x - i * by_y) / 2.0), 2),
+            ((real(found.wc), (by_x + i * by_y) / 2.0), 2),
+            ((found.wt, first_of(slopes(&t), turn)), 1),
+            ((real(found.tt), first_of(turns(&t), turn)), 0),
+            // d/dx^2 + d/dy^2 = 4 d/dw dw*.
+            ((found.wwc, (xx + yy) / 4.0), 3),
+            // d/dx^2 - d/dy^2 = 2 (d/dw^2 + d/dw*^2); of d/dw the latter is d/dw dw*^2.
+            ((found.www + found.wwc.conj(), (xx - yy) / 2.0), 3),
+            ((found.wtt, tt(slopes(&t), here.0)), 1),
+            ((real(found.ttt), tt(turns(&t), real(here.1))), 0),
+            ((real(found.wct), real((xxt + yyt) / 4.0)), 2),
+            ((real(2.0 * found.wwt.re), real((xxt - yyt) / 2.0)), 2),
+        ]
+        .map(|((one, other), power)| (one - other).norm() / scale * length.powi(power))
+    }
+
     /// They are those of the exact energies' slopes, by differences.
     #[test]
     fn derivatives_are_those_of_exact_energies() {
@@ -299,103 +342,19 @@ mod tests {
             let form = series_of(MagnetModel::Cuboid, &first, &second, 1e-9);
             let complex = |v: Vector2<f64>| Complex::new(v.x, v.y);
             let axis = complex(first.direction);
-            let turn = complex(second.direction) * axis.conj();
-            let mut coefficients = AngleDerivatives::none();
             let found = Level::best().run(AtPlace {
-                coefficients: coefficients.up_to(&form.series, turn, MOST_TERMS),
+                series: &form.series,
+                known: &mut Known::none(),
+                derivatives: &mut AngleDerivatives::none(),
                 terms: MOST_TERMS,
-                axis,
+                axes: [axis, complex(second.direction)],
                 way: complex(way),
                 moments: first.moment * second.moment,
             });
-            // Slopes by w and by the angle with the second magnet moved and turned.
-            let at = |step: Complex<f64>, turn: f64| -> (Complex<f64>, f64) {
-                let (sin, cos) = libm::sincos(turn);
-                let turned = second.moved([cos, sin], Vector2::zeros());
-                let position = second.position + Vector2::new(step.re, step.im);
-                let there: PairEnergy = exact(&first, &Body { position, ..turned });
-                (
-                    Complex::new(there.gradient.x, -there.gradient.y) / 2.0,
-                    there.slope,
-                )
-            };
-            let (h, turn) = (2e-4, 0.02);
-            let (one, i, none) = (
-                Complex::new(h, 0.0),
-                Complex::new(0.0, h),
-                Complex::default(),
-            );
-            let [x, y, t] = [(one, 0.0), (i, 0.0), (none, turn)]
-                .map(|(step, turn)| [-2.0, -1.0, 1.0, 2.0].map(|by| at(step * by, turn * by)));
-            let here = at(none, 0.0);
-            let first_of =
-                |[a, b, c, d]: [Complex<f64>; 4], h: f64| ((c - b) * 8.0 - (d - a)) / (12.0 * h);
-            let second_of = |[a, b, c, d]: [Complex<f64>; 4], here: Complex<f64>, h: f64| {
-                ((b + c) * 16.0 - (a + d) - here * 30.0) / (12.0 * h * h)
-            };
-            let real = |v: f64| Complex::new(v, 0.0);
-            let slopes = |of: &[(Complex<f64>, f64); 4]| of.map(|it| it.0);
-            let turns = |of: &[(Complex<f64>, f64); 4]| of.map(|it| real(it.1));
-            let i = Complex::<f64>::i();
-            let (by_x, by_y) = (first_of(slopes(&x), h), first_of(slopes(&y), h));
-            let (xx, yy) = (
-                second_of(slopes(&x), here.0, h),
-                second_of(slopes(&y), here.0, h),
-            );
-            let scale = MU0_OVER_4PI * first.moment * second.moment / 0.024f64.powi(3);
             let length = 0.024f64;
-            let check = |name: &str, one: Complex<f64>, other: Complex<f64>, size: f64| {
-                let error = (one - other).norm();
-                assert!(error < 3e-5 * size, "{k} {name}: {one} {other} {size}");
-            };
-            check(
-                "ww",
-                found.ww,
-                (by_x - i * by_y) / 2.0,
-                scale / length.powi(2),
-            );
-            check(
-                "wc",
-                real(found.wc),
-                (by_x + i * by_y) / 2.0,
-                scale / length.powi(2),
-            );
-            check("wt", found.wt, first_of(slopes(&t), turn), scale / length);
-            check("tt", real(found.tt), first_of(turns(&t), turn), scale);
-            // d/dx^2 + d/dy^2 = 4 d/dw dw*.
-            check("wwc", found.wwc, (xx + yy) / 4.0, scale / length.powi(3));
-            // d/dx^2 - d/dy^2 = 2 (d/dw^2 + d/dw*^2); of d/dw the latter is d/dw dw*^2.
-            check(
-                "www",
-                found.www + found.wwc.conj(),
-                (xx - yy) / 2.0,
-                scale / length.powi(3),
-            );
-            check(
-                "wtt",
-                found.wtt,
-                second_of(slopes(&t), here.0, turn),
-                scale / length,
-            );
-            check(
-                "ttt",
-                real(found.ttt),
-                second_of(turns(&t), real(here.1), turn),
-                scale,
-            );
-            let [xx, yy] = [&x, &y].map(|of| second_of(turns(of), real(here.1), h).re);
-            check(
-                "wct",
-                real(found.wct),
-                real((xx + yy) / 4.0),
-                scale / length.powi(2),
-            );
-            check(
-                "wwt",
-                real(2.0 * found.wwt.re),
-                real((xx - yy) / 2.0),
-                scale / length.powi(2),
-            );
+            let scale = MU0_OVER_4PI * first.moment * second.moment / length.powi(3);
+            let off = off_differences(&found, [&first, &second], [2e-4, 0.02], [scale, length]);
+            assert!(off.iter().all(|off| *off < 3e-5), "{k} {off:?}");
         }
     }
 }

@@ -234,14 +234,9 @@ impl Multipole {
         bisected(low, high, 40, is_much)[1]
     }
 
-    /// The powers of `turn` = e^(i beta) that the first terms have, in the order of l', and their number. Others are
-    /// finite.
+    /// The powers of `turn` = e^(i beta) that the first terms have, in the order of l'. Others are finite.
     #[inline(always)]
-    pub fn turns(
-        &self,
-        turn: Complex<f64>,
-        terms: usize,
-    ) -> ([Complex<f64>; MOST_TERMS + 1], usize) {
+    pub fn turns(&self, turn: Complex<f64>, terms: usize) -> [Complex<f64>; MOST_TERMS + 1] {
         let step = turn * turn;
         // Coefficients of later terms in the last vector remain to be computed.
         let mut turns = [turn; MOST_TERMS + 1];
@@ -249,11 +244,10 @@ impl Multipole {
             turns[0] = Complex::new(1.0, 0.0);
         }
         // Term k has the orders up to k, or up to k + 1 if the least is 0.
-        let count = terms + 1 - self.least;
-        for j in 1..count {
+        for j in 1..terms + 1 - self.least {
             turns[j] = turns[j - 1] * step;
         }
-        (turns, count)
+        turns
     }
 
     /// The j-th l' that is not negative.
@@ -268,6 +262,22 @@ impl Multipole {
         (&self.sums[j], &self.differences[j])
     }
 
+    /// The vectors of coefficients of some terms: where each begins, and how many l' these coefficients have.
+    #[inline(always)]
+    pub fn vectors(&self, terms: Range<usize>) -> impl Iterator<Item = (usize, usize)> {
+        let (most, more) = (self.terms, 1 - self.least);
+        let first = index(terms.start, 0) / WIDTH * WIDTH;
+        let mut last = 1;
+        (first..index(terms.end, 0))
+            .step_by(WIDTH)
+            .map(move |begin| {
+                while last < most && index(last, 0) < begin + WIDTH {
+                    last += 1;
+                }
+                (begin, last + more)
+            })
+    }
+
     /// Computes the coefficients of some terms for `turn` = e^(i beta), those for derivatives only
     /// if requested.
     #[inline(always)]
@@ -278,15 +288,8 @@ impl Multipole {
         terms: Range<usize>,
         known: &mut Coefficients,
     ) {
-        let (turns, _) = self.turns(turn, terms.end);
-        let more = 1 - self.least;
-        let mut i = index(terms.start, 0) / WIDTH * WIDTH;
-        let mut last = 1;
-        while i < index(terms.end, 0) {
-            while last < self.terms && index(last, 0) < i + WIDTH {
-                last += 1;
-            }
-            let orders = last + more;
+        let turns = self.turns(turn, terms.end);
+        for (i, orders) in self.vectors(terms) {
             let zero = l.splat(0.0);
             let (mut re, mut im) = (zero, zero);
             let (mut turn_re, mut turn_im) = (zero, zero);
@@ -311,7 +314,6 @@ impl Multipole {
                 l.store(l.mul(order, im), &mut known.slope_re[i..]);
                 l.store(l.neg_mul_add(order, re, zero), &mut known.slope_im[i..]);
             }
-            i += WIDTH;
         }
     }
 }

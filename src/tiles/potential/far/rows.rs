@@ -1,5 +1,6 @@
 //! The sum over the pairs of two groups by their series, in vectors; pairs that are too close are listed.
 
+use std::cell::RefCell;
 use std::ops::Range;
 
 use nalgebra::{Complex, Vector2};
@@ -126,7 +127,7 @@ impl Known {
 
     /// The coefficients of this many terms for `turn`, to which all that are known apply.
     #[inline(always)]
-    fn up_to<L: Lanes, const SLOPE: bool>(
+    pub fn up_to<L: Lanes, const SLOPE: bool>(
         &mut self,
         l: L,
         series: &Multipole,
@@ -224,12 +225,14 @@ impl Facing<'_> {
         total.add::<L, SLOPE>(l, &sums, fixed.axis);
     }
 
-    /// Calls `each` with all pairs by their series and their indices in the groups. Those
-    /// [nearer](FarForm::near) than it reaches are wrong. Derivatives are zero unless requested.
+    /// Calls `each` with all pairs by their series and their indices in the groups, given what is known at
+    /// the angle between both groups. Those [nearer](FarForm::near) than it reaches are wrong. Derivatives are
+    /// zero unless requested.
     #[inline(always)]
     pub fn for_each<L: Lanes, const SLOPE: bool>(
         &self,
         l: L,
+        known: &RefCell<Known>,
         mut each: impl FnMut([usize; 2], &Lane),
     ) {
         let &Self {
@@ -238,16 +241,25 @@ impl Facing<'_> {
             turn,
             centre,
         } = self;
-        let mut known = Known::none();
-        for j in 0..moving.count {
-            let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
-            for from in (0..fixed.x.len()).step_by(WIDTH) {
-                let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
-                let lanes = form.alone::<L, SLOPE>(l, (fixed.axis, turn), &pairs, &mut known);
-                let count = (fixed.count - from).min(WIDTH);
-                for (lane, found) in lanes[..count].iter().enumerate() {
-                    each([from + lane, j], found);
-                }
+        let count = fixed.count * moving.count;
+        for from in (0..count).step_by(WIDTH) {
+            let numbers = from..count.min(from + WIDTH);
+            let mut columns = [[0.0; WIDTH]; 3];
+            // What is left over repeats the last pair.
+            let filled = numbers.clone().chain(std::iter::repeat(count - 1));
+            for (lane, number) in filled.take(WIDTH).enumerate() {
+                let (i, j) = (number % fixed.count, number / fixed.count);
+                let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
+                columns[0][lane] = place.re - fixed.x[i];
+                columns[1][lane] = place.im - fixed.y[i];
+                columns[2][lane] = moving.moment[j] * fixed.moment[i];
+            }
+            let [x, y, moments] = &columns;
+            let pairs = Pairs::between(l, [l.load(x), l.load(y)], l.load(moments));
+            let lanes =
+                form.alone::<L, SLOPE>(l, (fixed.axis, turn), &pairs, &mut known.borrow_mut());
+            for (number, found) in numbers.zip(&lanes) {
+                each([number % fixed.count, number / fixed.count], found);
             }
         }
     }

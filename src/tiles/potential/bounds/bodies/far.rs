@@ -7,15 +7,16 @@ use super::{AN_ENERGY, LOST, Left, Pair, SHARED, Sum};
 /// m1 m2 / (4 pi r^3)`.
 const SERIES: f64 = 1e-7;
 /// Value and gradient are those of the exact energy where terms that are not summed may be more than this share
-/// of what the form leaves.
+/// of what the form leaves and more than this share of the energy of touching magnets.
 const UNKNOWN: f64 = 0.1;
+const TOUCHING: f64 = 1e-9;
 
 impl Pair<'_> {
     /// Adds the tightest form of a pair with these bounds of its series; returns what is left.
     pub(super) fn apart(&self, bounds: &OfSeries, out: &mut Sum) -> Left {
         let is_far = self.single.is_far;
-        let is_known = is_far
-            || self.cell.half != [0.0; 3] && bounds.unknown.spread <= UNKNOWN * bounds.left.spread;
+        let enough = (UNKNOWN * bounds.left.spread).max(TOUCHING * self.touching());
+        let is_known = is_far || bounds.unknown.spread <= enough;
         let rest = match is_known && !is_far {
             true => bounds.unknown,
             false => Left::default(),

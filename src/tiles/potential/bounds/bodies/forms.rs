@@ -1,9 +1,9 @@
-//! Forms of a pair's energy about the cell's centre: from its series, or from exact energies and their slopes
-//! there and beside it.
+//! Forms of a pair's energy about the cell's centre: from its series, from derivatives of exact energies, or from
+//! these and their slopes there and beside it.
 
 use nalgebra::{Complex, Vector2};
 
-use super::{A_TERM, Pair, Sum};
+use super::{A_TERM, AN_ENERGY, Pair, Sum};
 use crate::cell::Quadratic;
 use crate::potential::far::PairEnergy;
 use crate::potential::far::derivatives::Derivatives;
@@ -26,7 +26,9 @@ impl Pair<'_> {
     }
 
     /// Adds the form of second order, with differences over a step (m).
-    pub(super) fn add_second_order(&self, still: &PairEnergy, h: f64, out: &mut Sum) {
+    pub(super) fn add_second_order(&self, h: f64, out: &mut Sum) {
+        out.work += 4 * AN_ENERGY;
+        let still = &self.single.still();
         let turn = h / self.magnets[1].radius;
         let change = |there: &PairEnergy, step: f64| {
             let (there, here) = (slopes(there), slopes(still));
@@ -41,7 +43,9 @@ impl Pair<'_> {
     }
 
     /// Adds the form of third order, with differences over a step (m) to both sides.
-    pub(super) fn add_third_order(&self, still: &PairEnergy, h: f64, out: &mut Sum) {
+    pub(super) fn add_third_order(&self, h: f64, out: &mut Sum) {
+        out.work += 8 * AN_ENERGY;
+        let still = &self.single.still();
         let [x, y] = [Vector2::x() * h, Vector2::y() * h];
         let turn = h / self.magnets[1].radius;
         let [right, left, up, down, both] = self.single.moved([x, -x, y, -y, x + y], 0.0);
@@ -75,6 +79,13 @@ impl Pair<'_> {
             },
             out,
         );
+    }
+
+    /// Adds the form of third order of two discs that lie.
+    pub(super) fn add_derived(&self, out: &mut Sum) {
+        out.work += 2 * AN_ENERGY;
+        let (energy, derivatives) = self.single.derived();
+        self.add_form(&energy, &derivatives, out);
     }
 
     fn add_form(&self, energy: &PairEnergy, of: &Derivatives, out: &mut Sum) {

@@ -13,7 +13,8 @@
 //!   [`faces`], and [`rims`]), with the speed v of the fastest point, the turn w, and the magnet's distance a from the
 //!   point about which it turns: `(K3 v^3 + 3 K2 v a w^2 + K1 a w^3) / 6`. The differences err by `h / 2` times the
 //!   third derivatives: at most by `h / 2 v^2` times their bound for a unit of motion.
-//! * the form of third order, with differences to both sides, and a remainder from K4 likewise (see [`near`]).
+//! * the form of third order, with a remainder from K4 likewise (see [`near`]), and differences to both sides, or of two
+//!   discs that lie the derivatives themselves.
 //! * the form of first order in the magnet's own place and turn, s its radius: `(K2 v^2 + K1 s w^2) / 2
 //!   + K1 a w^3 / 6`, where the last term is what the form leaves out of the way along an arc.
 //! * its value: `K1 v`, also where faces touch.
@@ -41,6 +42,7 @@ use nalgebra::Vector2;
 use super::near::SLACK;
 use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
+use crate::configuration::Configuration;
 use crate::potential::bodies::{Body, Single};
 use crate::potential::cuboid::limits::segment_distance;
 use crate::potential::kinds::number_of;
@@ -209,6 +211,13 @@ impl CellBounds for BodyBounds {
             work: A_CELL + work,
             ..Enclosure::default()
         }
+    }
+
+    fn energy(&self, q: &Configuration) -> f64 {
+        let mut energy = 0.0;
+        self.potential
+            .for_each_single(q, self.skipped, |single| energy += single.still().energy);
+        energy
     }
 
     fn work(&self) -> u64 {

@@ -9,6 +9,7 @@ use crate::potential::bodies::{Body, Single};
 use crate::potential::bounds::apart::Apart;
 use crate::potential::far::PairEnergy;
 use crate::potential::simd::Level;
+use crate::tile::magnet::Shape;
 use crate::units::MU0_OVER_4PI;
 
 /// The largest and the smallest step of differences, as a share of the reach.
@@ -19,6 +20,13 @@ const WORTH: f64 = 0.6;
 /// A form of third order takes twice as long as one of second order; it is used if what it leaves, with the share
 /// above, is this much smaller.
 const WORTH_THIRD: f64 = 0.6;
+
+/// The same of one whose derivatives are known without differences, for discs this part of their radius apart.
+const WORTH_DERIVED: f64 = 0.9;
+const DERIVED_FROM: f64 = 0.02;
+/// The errors of these discs' energies, as a share of those of touching magnets, and of their first, second and third
+/// derivatives, as shares of their limits.
+const DERIVED: [f64; 4] = [1e-9, 2e-8, 1e-6, 1e-5];
 
 /// Limits of the derivatives of two magnets' energy by the places of the second one's points, and X (J/m^2).
 #[derive(Clone, Copy, Debug)]
@@ -176,39 +184,49 @@ impl Pair<'_> {
             error,
             slopes: 2.0 * slopes * k1 * v,
         };
-        let [second_order, step] = spreads.second_order();
-        let [third_order, long_step] = spreads.third_order();
+        let is_derived = self.are_lying_discs() && closest >= DERIVED_FROM * radius;
+        let ([second_order, step], [third_order, long_step], worth_third) = match is_derived {
+            false => (spreads.second_order(), spreads.third_order(), WORTH_THIRD),
+            true => {
+                let [value, slope, second, bend] = DERIVED;
+                let errors = [self.error(most, value), slope * k1 * v, second * k2 * v * v];
+                let errors = errors.iter().sum::<f64>() + bend * third;
+                (
+                    [f64::INFINITY; 2],
+                    [spreads.fourth + errors, 0.0],
+                    WORTH_DERIVED,
+                )
+            }
+        };
         let bent = 0.5 * (k2 * v * v + k1 * radius * w * w);
         let first_order = bent + arc + error;
         let steepest = apart.map_or(k1 * v, |apart| apart.slope.min(k1 * v));
         let value = steepest + error;
-        if most <= second_order.min(first_order).min(value) {
+        let others = second_order.min(first_order).min(value);
+        if most <= others.min(third_order) {
             return Left {
                 spread: most,
                 slope: steepest,
             };
         }
-        let still = self.single.still();
-        if v > 0.0 {
-            let shared = SHARED * spreads.third;
-            let others = second_order.min(first_order).min(value);
-            if third_order + shared < WORTH_THIRD * others {
-                out.work += 8 * AN_ENERGY;
-                self.add_third_order(&still, long_step * v, out);
-                return Left {
-                    spread: third_order,
-                    slope: 4.0 * third_order,
-                };
+        if v > 0.0 && third_order + SHARED * spreads.third < worth_third * others {
+            match is_derived {
+                true => self.add_derived(out),
+                false => self.add_third_order(long_step * v, out),
             }
-            if second_order < WORTH * first_order.min(value) {
-                out.work += 4 * AN_ENERGY;
-                self.add_second_order(&still, step * v, out);
-                return Left {
-                    spread: second_order,
-                    slope: 3.0 * spreads.third + 2.0 * (second_order - spreads.third),
-                };
-            }
+            return Left {
+                spread: third_order,
+                slope: 4.0 * third_order,
+            };
         }
+        if v > 0.0 && second_order < WORTH * first_order.min(value) {
+            self.add_second_order(step * v, out);
+            return Left {
+                spread: second_order,
+                slope: 3.0 * spreads.third + 2.0 * (second_order - spreads.third),
+            };
+        }
+        let still = self.single.still();
         out.work += AN_ENERGY;
         if first_order <= value {
             let form = self.in_cell(&still, [0.0; 6]);
@@ -237,6 +255,13 @@ impl Pair<'_> {
             spread: value,
             slope: steepest,
         }
+    }
+
+    fn are_lying_discs(&self) -> bool {
+        let Single { first, second, .. } = self.single;
+        [first, second]
+            .iter()
+            .all(|it| it.shape == Shape::Disc && !it.stands)
     }
 
     /// Faces closer than this (m) count as meeting.
