@@ -592,3 +592,30 @@ fn assert_follows(
         );
     }
 }
+
+/// What was enclosed before, by these bounds or others, at this turn or another one, does not matter.
+#[test]
+fn enclosures_are_those_of_a_new_thread() {
+    for case in all() {
+        let mut rng = ChaCha8Rng::seed_from_u64(7);
+        let made = [(); 2].map(|()| case.made(&mut rng, -0.7, Level::best()).0);
+        let cells: Vec<Cell> = (0..12)
+            .map(|k| Cell {
+                centre: Configuration::new(
+                    0.45 + 0.01 * f64::from(k),
+                    0.02,
+                    [0.1, 0.1, 0.3][k as usize % 3],
+                ),
+                half: [0.002, 0.002, 0.01 / f64::from(1 + k % 4)],
+            })
+            .collect();
+        for (k, cell) in cells.iter().enumerate() {
+            let bounds = &made[k / 2 % 2];
+            let alone = std::thread::scope(|scope| {
+                let enclosed = scope.spawn(|| bounds.enclose(cell));
+                enclosed.join().unwrap()
+            });
+            assert_eq!(bounds.enclose(cell), alone, "{} {k}", case.name);
+        }
+    }
+}
