@@ -2,8 +2,8 @@
 
 use super::{Entry, Given, Misused, Options, Reader};
 
-/// Creates a request from keyword arguments, each with its values as on a command line: no values
-/// if the option is absent, an empty one for an option without a value.
+/// Creates a request from keyword arguments, with hyphens or underscores, each with its values as on a command
+/// line: no values if the option is absent, an empty one for an option without a value.
 ///
 /// # Errors
 /// See [`Misused`].
@@ -13,7 +13,8 @@ pub fn of_keywords<R: Options>(
     let table = R::table();
     let mut given = Given::new();
     for (key, texts) in keywords {
-        let is_called = |it: &&Entry| it.name == key || it.alias == Some(&key);
+        let name = key.replace('-', "_");
+        let is_called = |it: &&Entry| it.name == name || it.alias == Some(&name);
         let Some(entry) = table.iter().find(is_called) else {
             let known = table.iter().map(|it| it.name).collect();
             return Err(Misused::Unknown(key, known));
@@ -110,6 +111,8 @@ mod tests {
             part: None,
         };
         assert_eq!(found, expected);
+        let hyphened = asked(&[("kt", &["1"]), ("most-runs", &["7"])]).unwrap();
+        assert_eq!(hyphened.most_runs, 7);
         let names: Vec<&str> = Asked::table().iter().map(|it| it.name).collect();
         assert_eq!(names, ["kt", "most_runs", "whole", "part"]);
     }
