@@ -58,10 +58,8 @@ pub fn derived<L: Lanes>(l: L, radius: f64, s: Z<L::F>, h: Z<L::F>) -> Derived<L
     let cube = l.z_mul(l.z_mul(far, far), far);
     let fifth = l.z_times(l.z_mul(l.z_mul(cube, far), far), l.splat(-3.0));
     let four = l.splat(4.0 * radius);
-    let [inside, more_inside] = [
-        place.inside(l, cubes[0], cubes[1]),
-        place.inside(l, fifths[0], fifths[1]),
-    ];
+    let inside = place.inside(l, cubes[0], cubes[1]);
+    let more_inside = place.inside(l, fifths[0], fifths[1]);
     let along = place.along(l, cubes[1], cubes[2]);
     let more_along = place.along(l, fifths[1], fifths[2]);
     let hh = l.z_mul(cube, inside);
@@ -104,6 +102,7 @@ struct Place<F> {
     /// The square of the distance (m) from the nearest point of the rim, and one by that from the farthest.
     near: Z<F>,
     far: Z<F>,
+    /// `(R - s) / (R + s)`.
     q: Z<F>,
     all: Complete<F>,
 }

@@ -61,12 +61,12 @@ pub fn integral(
     all: &[Placed],
 ) -> Integral {
     let mut nodes = Vec::with_capacity(USUAL);
-    for placed in all {
-        let Placed {
-            centres: [first, second],
-            share,
-            offset,
-        } = *placed;
+    for &Placed {
+        centres: [first, second],
+        share,
+        offset,
+    } in all
+    {
         let [own, others] = match disc_moves {
             true => [second, first],
             false => [first, second],
@@ -80,12 +80,8 @@ pub fn integral(
             radius,
             &at(other, others),
             |phi, weight| {
-                nodes.push(Node {
-                    phi,
-                    weight: share * weight,
-                    from: from.into(),
-                    lever: lever.into(),
-                });
+                let ([x, y, z], [right, up]) = (from.into(), lever.into());
+                nodes.push([phi, share * weight, x, y, z, right, up]);
             },
         );
     }
@@ -98,16 +94,9 @@ pub fn integral(
     })
 }
 
-/// An angle phi (rad) and its weight, with its faces' places (m).
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    phi: f64,
-    weight: f64,
-    /// The disc's centre from the other one's.
-    from: [f64; 3],
-    /// The second face's centre from the point about which it turns; its opposite if the disc is the first.
-    lever: [f64; 2],
-}
+/// An angle phi (rad) and its weight; the way (m) to the disc's centre from the other one's, x, y and z; and that, x and
+/// y, to the second face's centre from the point about which it turns, or its opposite if the disc is the first.
+type Node = [f64; 7];
 
 /// As many nodes as faces that do not nearly touch need.
 pub const USUAL: usize = 40;
@@ -130,18 +119,7 @@ impl Task for Line<'_> {
         let zero = l.splat(0.0);
         let [mut value, mut x, mut y, mut slope] = [zero; 4];
         for nodes in self.nodes.chunks(WIDTH) {
-            // What is left over has no weight.
-            let mut columns = [[0.0; WIDTH]; 7];
-            for lane in 0..WIDTH {
-                let node = nodes[lane.min(nodes.len() - 1)];
-                let weight = if lane < nodes.len() { node.weight } else { 0.0 };
-                let ([x, y, z], [right, up]) = (node.from, node.lever);
-                let all = [node.phi, weight, x, y, z, right, up];
-                for (column, value) in columns.iter_mut().zip(all) {
-                    column[lane] = value;
-                }
-            }
-            let [phi, weight, from_x, from_y, from_z, right, up] = columns;
+            let [phi, weight, from_x, from_y, from_z, right, up] = columns(nodes);
             let (right, up) = (l.load(&right), l.load(&up));
             let (sin, cos) = l.sin_cos(l.load(&phi));
             let t = l.mul(cos, l.splat(self.radius));
@@ -184,6 +162,22 @@ impl Task for Line<'_> {
             slope: l.sum(slope),
         }
     }
+}
+
+/// Nodes in lanes, value by value. Lanes that are left over repeat the last node without its weight, its second value.
+#[inline(always)]
+pub fn columns<const N: usize>(nodes: &[[f64; N]]) -> [[f64; WIDTH]; N] {
+    let mut columns = [[0.0; WIDTH]; N];
+    for lane in 0..WIDTH {
+        let node = nodes[lane.min(nodes.len() - 1)];
+        for (column, value) in columns.iter_mut().zip(node) {
+            column[lane] = value;
+        }
+        if lane >= nodes.len() {
+            columns[1][lane] = 0.0;
+        }
+    }
+    columns
 }
 
 /// Calls `each` with angles phi (rad) in [0, pi / 2] and their weights, for about this relative error: the value

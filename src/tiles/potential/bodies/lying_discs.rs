@@ -12,10 +12,10 @@ use super::Body;
 use super::complex::{Complexes, Z};
 use super::disc::{self, Derived};
 use super::face::Face;
-use super::line::{USUAL, angles};
+use super::line::{USUAL, angles, columns};
 use super::near::{pole_places, strength, upright};
-use crate::potential::far::PairEnergy;
 use crate::potential::far::derivatives::Derivatives;
+use crate::potential::far::{PairEnergy, complex};
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 
@@ -54,10 +54,6 @@ pub fn derived(first: &Body, second: &Body) -> (PairEnergy, Derivatives) {
         .derivatives(strength(first, second), axis, turn)
 }
 
-fn complex(v: Vector2<f64>) -> Complex<f64> {
-    Complex::new(v.x, v.y)
-}
-
 /// The lines of charge, in the frame of the first disc: x along its axis.
 struct Line<'a> {
     radii: [f64; 2],
@@ -85,18 +81,7 @@ impl Task for Line<'_> {
         let mut value = zero;
         let (mut first, mut second, mut third) = ([[zero; 2]; 2], [[zero; 3]; 3], [[zero; 4]; 4]);
         for nodes in self.nodes.chunks(WIDTH) {
-            // What is left over has no weight.
-            let mut columns = [[0.0; WIDTH]; 5];
-            for lane in 0..WIDTH {
-                let node = nodes[lane.min(nodes.len() - 1)];
-                for (column, value) in columns.iter_mut().zip(node) {
-                    column[lane] = value;
-                }
-                if lane >= nodes.len() {
-                    columns[1][lane] = 0.0;
-                }
-            }
-            let [phi, weight, x, y, level] = columns;
+            let [phi, weight, x, y, level] = columns(nodes);
             let (sin, cos) = l.sin_cos(l.load(&phi));
             let t = l.mul(cos, l.splat(self.radii[1]));
             let half = l.mul(sin, l.splat(self.radii[1]));

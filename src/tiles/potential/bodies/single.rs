@@ -8,9 +8,9 @@ use super::lying_discs;
 use super::near::exact;
 use super::{Alike, Body, BodyPotential, Pairs};
 use crate::configuration::Configuration;
-use crate::potential::far::PairEnergy;
 use crate::potential::far::derivatives::{AngleDerivatives, AtPlace, Derivatives};
 use crate::potential::far::rows::{Facing, Known, Lane, Several};
+use crate::potential::far::{PairEnergy, complex};
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task};
 
@@ -98,17 +98,16 @@ impl Single<'_> {
         let far = &self.pairs.far;
         if ways.iter().all(|way| way.norm_squared() >= far.near()) {
             let SharedSeries { still, turned, .. } = self.shared;
-            let known = match turn == 0.0 {
-                true => still,
-                false => turned,
+            let mut known = match turn == 0.0 {
+                true => still.borrow_mut(),
+                false => turned.borrow_mut(),
             };
-            let known = &mut *known.borrow_mut();
             if turn != 0.0 {
                 known.forget();
             }
             return Level::best().run(Several {
                 form: far,
-                known,
+                known: &mut known,
                 axes: [self.first.direction, second.direction].map(complex),
                 moments: self.first.moment * self.second.moment,
                 ways: ways.map(complex),
@@ -134,10 +133,6 @@ impl Single<'_> {
             moments: self.first.moment * self.second.moment,
         })
     }
-}
-
-fn complex(v: Vector2<f64>) -> Complex<f64> {
-    Complex::new(v.x, v.y)
 }
 
 impl BodyPotential {

@@ -253,6 +253,7 @@ impl<F: Copy> Sum<F> {
 pub(in crate::potential) mod tests {
     use nalgebra::Vector2;
 
+    use super::super::complex;
     use super::*;
     use crate::potential::MagnetModel;
     use crate::potential::bodies::{Body, exact, series_of};
@@ -340,7 +341,6 @@ pub(in crate::potential) mod tests {
             let first = body(Shape::Disc, stands, Vector2::new(0.003, -0.001), 0.4);
             let second = body(shape, stands, first.position + way, 2.2 * angle);
             let form = series_of(MagnetModel::Cuboid, &first, &second, 1e-9);
-            let complex = |v: Vector2<f64>| Complex::new(v.x, v.y);
             let axis = complex(first.direction);
             let found = Level::best().run(AtPlace {
                 series: &form.series,

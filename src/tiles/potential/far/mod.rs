@@ -12,7 +12,7 @@ pub mod multipole;
 pub mod rows;
 pub mod terms;
 
-use nalgebra::Vector2;
+use nalgebra::{Complex, Vector2};
 
 use multipole::Multipole;
 use terms::STEPS;
@@ -27,6 +27,11 @@ pub struct PairEnergy {
     pub gradient: Vector2<f64>,
     /// By the second magnet's angle about its own centre (J/rad).
     pub slope: f64,
+}
+
+/// A vector of the tiles' plane as a complex number.
+pub fn complex(v: Vector2<f64>) -> Complex<f64> {
+    Complex::new(v.x, v.y)
 }
 
 /// The series of two magnets, and the distances at which it has enough terms.

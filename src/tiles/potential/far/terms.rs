@@ -223,6 +223,7 @@ fn real<L: Lanes>(l: L, v: [L::F; 2], re: f64, im: f64, sum: L::F) -> L::F {
 mod tests {
     use nalgebra::Vector2;
 
+    use super::super::complex;
     use super::super::multipole::Multipole;
     use super::*;
     use crate::potential::cuboid::{Block, PairEnergy, cloud, series};
@@ -240,7 +241,6 @@ mod tests {
         #[inline(always)]
         fn run<L: Lanes>(self, l: L) -> PairEnergy {
             let Self(series, first, second) = self;
-            let complex = |v: Vector2<f64>| Complex::new(v.x, v.y);
             let axis = complex(first.axis);
             let mut group = Group::new(0, first.axis);
             group.push(0, first.position, first.moment);
