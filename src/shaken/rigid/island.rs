@@ -8,8 +8,8 @@
 //! gaps are those of the moved tiles, not of a linear forecast.
 //!
 //! How long a step may be is in [limits](super::limits), its mean velocities in [way](super::way), the rest
-//! of it in [step](super::step). A step whose impulses are not found is repeated with half the time. A step
-//! ends where a gap closes, with a [knock](super::knock).
+//! of it in [step](super::step). A step ends where a gap closes, with a [knock](super::knock). A step whose
+//! impulses, those of its knock among them, are not found is repeated with half the time.
 
 use nalgebra::Vector3;
 
@@ -143,7 +143,7 @@ impl<W: World> Island<'_, W> {
     /// Prepares a state for steps of at most this length (s).
     ///
     /// # Errors
-    /// If tiles that overlap are not set apart.
+    /// If tiles that overlap are not set apart, or the impulses of a knock are not found.
     pub fn begin(
         &mut self,
         state: &mut State,
@@ -151,8 +151,14 @@ impl<W: World> Island<'_, W> {
         longest: f64,
     ) -> Result<(), Unsolved> {
         self.look(state, masses[1], longest);
-        self.account.contact_loss += self.set_apart(state, masses, longest)?;
+        self.account.contact_loss += self.settle(state, masses)?;
         Ok(())
+    }
+
+    /// Sets apart what overlaps, and then knocks; returns the energy lost (J).
+    pub(super) fn settle(&mut self, state: &mut State, masses: Masses) -> Result<f64, Unsolved> {
+        let longest = state.longest;
+        Ok(self.set_apart(state, masses, longest)? + self.knock(state, masses)?)
     }
 
     /// Makes one step with constant external forces, at most to a time (s); returns its length (s).
@@ -166,7 +172,6 @@ impl<W: World> Island<'_, W> {
         until: f64,
     ) -> Result<f64, Unsolved> {
         loop {
-            self.account.contact_loss += self.knock(state, masses)?;
             let left = until - state.time;
             let longest = state.longest.min(left) * libm::ldexp(1.0, -state.halvings);
             let moved = self.way(state, masses[1], longest).and_then(|way| {
@@ -187,7 +192,6 @@ impl<W: World> Island<'_, W> {
             };
             state.halvings = (state.halvings - 1).max(0);
             self.account.contact_loss += loss;
-            self.account.contact_loss += self.set_apart(state, masses, state.longest)?;
             if h >= left {
                 state.time = until;
             }

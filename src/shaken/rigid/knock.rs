@@ -1,8 +1,9 @@
 //! Knocks: impulses with restitution where gaps close, at the end of a step.
 //!
-//! Where many points or friction would increase the energy (Kane and Levinson 1985), the restitution
-//! is reduced until they do not. Knocks so slow that tiles would bounce for less than the shortest
-//! step are without restitution, and the points then last for whole steps.
+//! Where bounces contradict each other, a share of the impulses is given back instead. Where many points or
+//! friction would increase the energy (Kane and Levinson 1985), the restitution is reduced until they do
+//! not. Knocks so slow that tiles would bounce for less than the shortest step are without restitution, and
+//! the points then last for whole steps.
 
 use nalgebra::Vector3;
 
@@ -58,7 +59,21 @@ impl<W: World> Island<'_, W> {
             for (hold, back) in holds.iter_mut().zip(backs) {
                 hold.least = back;
             }
-            let bounced = knocked(solver, inverse, &before, &mut holds, error)?;
+            let bounced = match knocked(solver, inverse, &before, &mut holds, error) {
+                Ok(bounced) => bounced,
+                Err(Unsolved) => {
+                    let e = self.laws.restitution;
+                    let each = before.iter().zip(&stopped);
+                    let free: Each<_> = each.map(|(v, stop)| stop + (stop - v) * e).collect();
+                    let after = stopped_again(solver, inverse, &free, &mut holds, error)?;
+                    for (hold, stop) in holds.iter_mut().zip(&of_stop) {
+                        for (impulse, stop) in hold.impulses.iter_mut().zip(stop) {
+                            *impulse += stop * (1.0 + e);
+                        }
+                    }
+                    after
+                }
+            };
             let each = bounced.iter().zip(&stopped);
             let change: Each<_> = each.map(|(bounced, stopped)| bounced - stopped).collect();
             let share = share_within(masses, &stopped, &change, kinetic(masses, &before));
@@ -77,8 +92,24 @@ impl<W: World> Island<'_, W> {
     }
 }
 
-/// The velocities after a knock. No shorter step makes one easier, so where the search does not suffice, as
-/// in wedges, it goes on.
+/// The velocities after a knock whose bounces contradict each other, as in wedges: by Poisson's law, a share of
+/// the impulses that stop the knock is given back, and what closes then is stopped (Anitescu and Potra 1997).
+/// There always are such impulses.
+fn stopped_again(
+    solver: &mut Solver,
+    inverse: &[Vector3<f64>],
+    free: &[Vector3<f64>],
+    holds: &mut [Hold],
+    error: f64,
+) -> Result<Each<Vector3<f64>>, Unsolved> {
+    for hold in holds.iter_mut() {
+        hold.least = 0.0;
+        hold.impulses = [0.0; 2];
+    }
+    knocked(solver, inverse, free, holds, error)
+}
+
+/// The velocities after a knock. Where the search does not suffice, as in wedges, it goes on.
 fn knocked(
     solver: &mut Solver,
     inverse: &[Vector3<f64>],

@@ -28,6 +28,9 @@ const RESTING: f64 = 1.0 / 32.0;
 const ALONG: f64 = 4.0;
 /// The same, by the whole acceleration.
 const TOGETHER: f64 = 16.0;
+/// The same of tiles that slide to and fro, in radians: the energy of such a swing errs by a quarter of the
+/// square, as a share, until velocities are put right.
+const SWING: f64 = 0.2;
 /// Ratio of the longest step to the shortest bounce.
 const SHORTEST: f64 = 16.0;
 
@@ -60,7 +63,8 @@ impl<W: World> Island<'_, W> {
     fn longest_step(&self, state: &State, inverse: &[Vector3<f64>]) -> f64 {
         let feature = self.margins.feature;
         let limit = |(two, near): &(Two, &mut NearPair), pull: &Strength| {
-            let travel = self.relative(*two, &state.velocities) * self.laws.step;
+            let speed = self.relative(*two, &state.velocities);
+            let travel = speed * self.laws.step;
             let rests = RESTING * self.travel();
             if travel < rests && self.laws.friction > 0.0 {
                 return f64::INFINITY;
@@ -73,8 +77,15 @@ impl<W: World> Island<'_, W> {
             }
             let lightness =
                 [two.first, two.second].map(|tile| inverse.get(tile).map_or(0.0, |it| it.x));
-            let along = near.slide(pull.force, self.laws.friction) * (lightness[0] + lightness[1]);
-            (ALONG * longest_step(feature, along)).min(TOGETHER * whole)
+            let lightness = lightness[0] + lightness[1];
+            let along = near.slide(pull.force, self.laws.friction);
+            // Where they swing to and fro, and friction cannot stop them at the end of a swing.
+            let rate = (near.stiffness * lightness).sqrt();
+            let swings = along * lightness + speed * rate > 0.0;
+            let swing = if swings { SWING / rate } else { f64::INFINITY };
+            (ALONG * longest_step(feature, along * lightness))
+                .min(TOGETHER * whole)
+                .min(swing)
         };
         let pairs = self.pairs.iter().zip(&state.pulls);
         let limits = pairs.map(|(pair, pull)| limit(pair, pull));

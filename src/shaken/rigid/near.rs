@@ -13,6 +13,9 @@ use tiles::tile::outline::cross;
 /// The motion, in skins, over which a pull counts as the same. A force changes over a magnet's half side l: its
 /// error is at most of the order of this over l, 2e-5 for the paper's tile, and the energy's half the square.
 const SAME_PULL: f64 = 0.3;
+/// The way, as a share of the length over which forces change, from which the change of a force is known well
+/// enough to tell how stiff it is.
+const RESOLVED: f64 = 1.0 / 300.0;
 
 /// Two tiles that are near each other, with the state of their contact.
 #[derive(Debug)]
@@ -30,6 +33,8 @@ pub struct NearPair {
     room_at: Configuration,
     /// A pose of the second tile in the first one's frame, and the pull there.
     pulled: Option<(Configuration, Within)>,
+    /// By how much the force changed with the last way of some length (N/m).
+    pub stiffness: f64,
     /// The last contact points.
     pub held: Vec<Touch>,
     /// The pose of the second tile in the first one's frame that they are of.
@@ -62,6 +67,7 @@ impl NearPair {
             last_room: f64::NEG_INFINITY,
             room_at: Configuration::new(0.0, 0.0, 0.0),
             pulled: None,
+            stiffness: 0.0,
             held: Vec::new(),
             held_at: Configuration::new(0.0, 0.0, 0.0),
             found: None,
@@ -80,14 +86,21 @@ impl NearPair {
     ) -> Pull {
         let kinds = movers.map(|it| it.kind);
         let q = poses[0].to(&poses[1].at);
-        if let Some((at, (energy, force, torque))) = self.pulled
-            && moved(world.contact(kinds), [&at, &q]) <= SAME_PULL * margins.skin
-        {
+        let Some((at, (energy, force, torque))) = self.pulled else {
+            let found = world.pull(kinds, &q);
+            self.pulled = Some((q, found));
+            return on_the_table(found, movers, poses);
+        };
+        let way = moved(world.contact(kinds), [&at, &q]);
+        if way <= SAME_PULL * margins.skin {
             let step = at.step_to(&q);
             let energy = energy - force.dot(&step.xy()) - torque * step.z;
             return on_the_table((energy, force, torque), movers, poses);
         }
         let found = world.pull(kinds, &q);
+        if way > RESOLVED * margins.feature {
+            self.stiffness = (found.1 - force).norm() / way;
+        }
         self.pulled = Some((q, found));
         on_the_table(found, movers, poses)
     }
@@ -114,9 +127,9 @@ impl NearPair {
         self.held.iter().find(same).map_or([0.0; 2], |it| it.forces)
     }
 
-    /// The force (N) along the contact that friction cannot stop, of a force on the second tile in
+    /// The force (N) along the contact beyond what friction can stop, of a force on the second tile in
     /// the frame of the first: by the contact point where it is largest. All of it where the points are not
-    /// known yet.
+    /// known yet. Negative where friction could stop more.
     pub fn slide(&self, force: Vector2<f64>, friction: f64) -> f64 {
         if self.held.is_empty() {
             return force.norm();
@@ -125,7 +138,7 @@ impl NearPair {
             let press = -touch.normal.dot(&force);
             cross(touch.normal, force).abs() - friction * press.max(0.0)
         });
-        along.fold(0.0, f64::max)
+        along.fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// A lower bound of the distance (m) of the tiles, from where it was last looked at.

@@ -136,7 +136,7 @@ impl RestPoint {
 
     /// The nearest impulse within the limit.
     #[inline(always)]
-    fn within(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub fn within(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let size = (x * x + y * y).sqrt();
         let share = if size > self.limit {
             self.limit / size

@@ -20,7 +20,8 @@
 //!
 //! Where they are not found by sweeps, they are by pivots ([`super::pivot`]).
 //!
-//! Where tiles rub on the table they lie on, the points of [`super::rest`] belong to the same sweeps.
+//! Where tiles rub on the table they lie on, the points of [`super::rest`] belong to the same sweeps, and take
+//! turns with pivots.
 
 use nalgebra::Vector3;
 
@@ -38,6 +39,12 @@ const SWEEPS: usize = 1000;
 const PLAIN: usize = 500;
 /// Largest number of points that are solved by pivots: their work grows with the cube of it.
 const PIVOTED: usize = 100;
+/// Pivots and friction on the table take turns this often at most.
+const TURNS: usize = 200;
+/// What they would still change is extrapolated after so many.
+const AITKEN: usize = 6;
+/// Friction on the table is solved for alone until a sweep changes velocities by less than this share of the error.
+const RUBBED: f64 = 0.01;
 /// Slowest convergence that is assumed: the share of a sweep's change that the next one makes.
 const SLOWEST: f64 = 0.99;
 /// Largest share of a sweep's change by which the impulses go on after it.
@@ -196,18 +203,8 @@ impl Prepared {
             error,
         };
         let mut is_found = Level::best().run(solution).is_some();
-        if !is_found
-            && self.rests.is_empty()
-            && self.points.len() <= PIVOTED
-            && let Some(impulses) = by_pivots(&self.points, &self.free)
-        {
-            self.velocities.clone_from(&self.free);
-            for (point, impulses) in self.points.iter_mut().zip(impulses) {
-                point.impulses = impulses;
-                point.push(impulses, &mut self.velocities);
-            }
-            let mut points = self.points.iter();
-            is_found = points.all(|it| it.obeys(&self.velocities, error));
+        if !is_found && self.points.len() <= PIVOTED {
+            is_found = self.pivot(error).is_some();
         }
         for (k, point) in self.order.iter().zip(&self.points) {
             holds[*k].impulses = point.impulses;
@@ -220,6 +217,67 @@ impl Prepared {
             velocities[*tile] = Vector3::new(*x, *y, *turn).component_mul(root);
         }
         is_found
+    }
+}
+
+impl Prepared {
+    /// Solves by pivots; friction on the table takes turns with them, as it is no linear law.
+    fn pivot(&mut self, error: f64) -> Option<()> {
+        let mut last = f64::INFINITY;
+        for turn in 1..=TURNS {
+            self.velocities.clone_from(&self.free);
+            for rest in &self.rests {
+                rest.push(rest.impulse, &mut self.velocities);
+            }
+            let impulses = by_pivots(&self.points, &self.velocities)?;
+            for (point, impulses) in self.points.iter_mut().zip(impulses) {
+                point.impulses = impulses;
+                point.push(impulses, &mut self.velocities);
+            }
+            let before: Vec<_> = self.rests.iter().map(|it| it.impulse).collect();
+            self.rub(error);
+            let mut points = self.points.iter();
+            if points.all(|it| it.obeys(&self.velocities, error)) {
+                return Some(());
+            }
+            if self.rests.is_empty() {
+                return None;
+            }
+            let each = self.rests.iter().zip(&before);
+            let change = each.map(|(it, before)| [0, 1].map(|k| it.impulse[k] - before[k]));
+            let changes: Vec<[f64; 2]> = change.collect();
+            let squares = changes.iter().flatten().map(|it| it * it);
+            let size = squares.sum::<f64>().sqrt();
+            // Each turn changes by a share of the one before: from time to time by all that is to come (Aitken).
+            let share = size / last;
+            last = size;
+            if turn.is_multiple_of(AITKEN) && share < 1.0 {
+                for (rest, change) in self.rests.iter_mut().zip(changes) {
+                    let more = share / (1.0 - share);
+                    rest.impulse = rest.within([0, 1].map(|k| rest.impulse[k] + change[k] * more));
+                }
+                last = f64::INFINITY;
+            }
+        }
+        None
+    }
+
+    /// Solves for friction on the table alone.
+    fn rub(&mut self, error: f64) {
+        for _ in 0..SWEEPS {
+            self.before.clone_from(&self.velocities);
+            for rest in &mut self.rests {
+                rest.solve(&mut self.velocities);
+            }
+            let each = self.velocities.iter().zip(&self.before).zip(&self.roots);
+            let change = each.map(|((now, before), root)| {
+                let [x, y, turn] = [0, 1, 2].map(|k| now[k] - before[k]);
+                (x * x + y * y + turn * turn) * root.x * root.x
+            });
+            if change.fold(0.0, f64::max) < (RUBBED * error).powi(2) {
+                return;
+            }
+        }
     }
 }
 
@@ -384,9 +442,11 @@ mod tests {
     }
 
     /// Three squares in a row between two walls, each touching the next with a corner: with much friction sweeps
-    /// go round in circles in some of these knocks. Impulses take energy, as they have no restitution.
+    /// go round in circles in some of these knocks. Impulses take energy, as they have no restitution; so do those
+    /// of the table on which the squares lie, in two thirds of them; of these, few are not found.
     #[test]
     fn knocks_are_solved_at_any_friction() {
+        let [mut missed, mut all] = [0; 2];
         let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
         let inertia = 0.1 * SIDE * SIDE / 6.0;
         let inverse = vec![Vector3::new(10.0, 10.0, 1.0 / inertia); 3];
@@ -396,7 +456,9 @@ mod tests {
             each.map(|(v, inverse)| v.component_div(inverse).dot(v))
                 .sum::<f64>()
         };
-        for friction in [0.3, 1.0, 2.0].repeat(500) {
+        let cases =
+            [0.3, 1.0, 2.0].map(|friction| [0.0, 1e-3, 1e-2].map(|limit| (friction, limit)));
+        for (friction, limit) in cases.concat().repeat(1000) {
             let mut even = || rng.random::<f64>() - 0.5;
             let holds = (0..4).map(|k| {
                 let tiles = [[None, Some(0)], [Some(0), Some(1)], [Some(1), Some(2)]];
@@ -411,19 +473,46 @@ mod tests {
                 .map(|_| Vector3::new(even(), even(), even() / SIDE))
                 .collect();
             let mut now = before.clone();
-            let is_found = hold_back(&inverse, &mut now, (&mut holds, &mut []), [friction, ERROR]);
+            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+            let under =
+                (0..3).flat_map(|tile| corners.map(|it| (tile, 0.3 * SIDE * Vector2::from(it))));
+            let rests = under.filter(|_| limit > 0.0).map(|(tile, arm)| Rest {
+                tile,
+                arm,
+                limit,
+                impulse: Vector2::zeros(),
+                is_given: false,
+            });
+            let mut rests: Vec<Rest> = rests.collect();
+            let points = (&mut holds[..], &mut rests[..]);
+            let is_found = hold_back(&inverse, &mut now, points, [friction, ERROR]);
+            if limit > 0.0 {
+                [missed, all] = [missed + usize::from(!is_found), all + 1];
+                if !is_found {
+                    continue;
+                }
+            }
             assert!(is_found, "{friction} {before:?} {holds:?}");
+            for rest in &rests {
+                let (rub, slip) = (rest.impulse, rest.velocity(&now));
+                assert!(rub.norm() <= limit * (1.0 + 1e-9));
+                let is_against = rest.slides() && (rub / limit + slip.normalize()).norm() < 0.1;
+                assert!(slip.norm() < 0.01 || is_against, "{rub} {slip} {limit}");
+            }
             assert!(of(&now) <= of(&before) + ERROR);
+            // Where the table rubs, sweeps end by an estimate that is often too small.
+            let most = if limit > 0.0 { 1e-3 } else { 50.0 * ERROR };
             for hold in &holds {
                 let ([push, rub], rate) = (hold.impulses, hold.rate(&now));
-                assert!(rate > -50.0 * ERROR, "{rate}");
+                assert!(rate > -most, "{rate}");
                 assert!(
-                    push == 0.0 || rate < 50.0 * ERROR,
+                    push == 0.0 || rate < most,
                     "{push} {rate} {friction} {holds:?} {before:?}"
                 );
                 assert!(push >= 0.0 && rub.abs() <= friction * push * (1.0 + 1e-9));
             }
         }
+        assert!(500 * missed < all, "{missed} of {all}");
     }
 
     /// Four squares in a block that fly at each other. Each two touch along whole edges, with the corners of both

@@ -20,7 +20,7 @@ const GAINED: f64 = 1e-3;
 const RETURNED: f64 = 10.0;
 
 impl<W: World> Island<'_, W> {
-    /// Makes a step, with `after` (s) left after it. Returns the energy lost in contact (J).
+    /// Makes a step and the knock at its end, with `after` (s) left after it. Returns the energy lost in contact (J).
     pub(super) fn step(
         &mut self,
         state: &mut State,
@@ -137,8 +137,6 @@ impl<W: World> Island<'_, W> {
                 lost = lost.max(0.0);
             }
         }
-        self.account.table_loss -= rubbed;
-        self.account.work += swung;
         if is_put_right {
             let places: Each<_> = self.riders.iter().map(|it| it.mover.place).collect();
             // Tiles that stand still stop the common motion.
@@ -146,9 +144,15 @@ impl<W: World> Island<'_, W> {
             put_right_held(&mut next, (masses, places), energy - lost);
         }
         self.remember(&holds, h);
+        let Ok(settled) = self.settle(&mut next, [masses, inverse]) else {
+            self.put_back(&before);
+            return Err(Unsolved);
+        };
+        self.account.table_loss -= rubbed;
+        self.account.work += swung;
         self.steps += 1;
         *state = next;
-        Ok(lost)
+        Ok(lost + settled)
     }
 
     /// Stops the velocities at the end of a step (s) into the contact, and lets the table rub. A point that
