@@ -38,6 +38,10 @@ const MOST_STEPS: f64 = 16.0;
 const SHARE_OF_ROOM: f64 = 0.02;
 /// ... and which counts as this share of the circles' radii at least, or as half a magnet's side.
 const LEAST_ROOM: f64 = 0.1;
+/// The share is larger for pulls weaker than this many times what the cut-off leaves out, in inverse proportion ...
+const WEAK: f64 = 100.0;
+/// ... up to this factor: no such pull errs by more than a few times what is left out anyway.
+const MOST_WEAK: f64 = 10.0;
 
 /// Why a run cannot go on.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -388,12 +392,18 @@ impl<'a> Stepper<'a> {
             let known = next_of(two, &mut lasted, |it| it.two);
             let [first, second] = [two.first, two.second].map(|k| &movers[k]);
             let kinds = [first.kind, second.kind];
+            let left_out = crowd.couple(kinds[0], kinds[1]).0.cutoff.left_out;
+            let strength = known.map_or(f64::INFINITY, |it| {
+                let (energy, force, torque) = it.within;
+                energy.abs() + force.norm() * (room / SHARE_OF_ROOM) + torque.abs()
+            });
+            let room = room * (WEAK * left_out / strength).clamp(1.0, MOST_WEAK);
             let at = poses[two.first].to(&poses[two.second].at);
             let moved = |from: &Configuration| {
                 let step = from.step_to(&at);
                 step.xy().norm() + crowd.contact(kinds).moving().circumradius() * step.z.abs()
             };
-            let known = known.filter(|it| it.steps > 1 && moved(&it.at) <= *room);
+            let known = known.filter(|it| it.steps > 1 && moved(&it.at) <= room);
             if let Some(known) = known {
                 lasting.push(Lasting {
                     steps: known.steps - 1,
