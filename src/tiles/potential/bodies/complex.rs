@@ -85,11 +85,6 @@ pub trait Complexes: Lanes {
             im: self.select(condition, a.im, b.im),
         }
     }
-    /// The larger of two numbers.
-    #[inline(always)]
-    fn max(self, a: Self::F, b: Self::F) -> Self::F {
-        self.select(self.sub(a, b), a, b)
-    }
     /// 1 with the sign of a number.
     #[inline(always)]
     fn sign(self, a: Self::F) -> Self::F {

@@ -68,7 +68,7 @@ impl<F: Copy> Complete<F> {
             e = l.z_mul(k, m);
         }
         let side = l.sign(l.mul_add(p[1].im, m.im, l.mul(p[1].re, m.re)));
-        let [b2, p1] = [b[2], p[1]].map(|it| l.z_times(it, side));
+        let (b2, p1) = (l.z_times(b[2], side), l.z_times(p[1], side));
         Self {
             first: integral(l, m, [a[0], b[0], p[0]]),
             tilted: integral(l, m, [a[1], b[1], p[0]]),

@@ -121,9 +121,9 @@ impl Single<'_> {
         lying_discs::derived(&self.first, &self.second)
     }
 
-    /// Second and third derivatives of this many terms of the series.
-    pub fn derivatives(&self, terms: usize) -> Derivatives {
-        Level::best().run(AtPlace {
+    /// Second derivatives of this many terms of the series, and the third ones if requested, else zeros.
+    pub fn derivatives<const THIRD: bool>(&self, terms: usize) -> Derivatives {
+        Level::best().run(AtPlace::<THIRD> {
             series: &self.pairs.far.series,
             known: &mut self.shared.still.borrow_mut(),
             derivatives: &mut self.shared.derivatives.borrow_mut(),

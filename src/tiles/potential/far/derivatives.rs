@@ -125,8 +125,8 @@ impl AngleDerivatives {
     }
 }
 
-/// Computes [`Derivatives`] by the first `terms` terms.
-pub struct AtPlace<'a> {
+/// Computes [`Derivatives`] by the first `terms` terms, those of third order only if requested.
+pub struct AtPlace<'a, const THIRD: bool> {
     pub series: &'a Multipole,
     /// What is known of the coefficients at the angle between the magnets, and of their derivatives.
     pub known: &'a mut Known,
@@ -167,7 +167,7 @@ fn places(terms: usize, inverse: f64, phase: Complex<f64>) -> [[f64; ROOM]; 2] {
     places
 }
 
-impl Task for AtPlace<'_> {
+impl<const THIRD: bool> Task for AtPlace<'_, THIRD> {
     type Output = Derivatives;
 
     #[inline(always)]
@@ -191,17 +191,19 @@ impl Task for AtPlace<'_> {
             let still = term(l, [&known.re, &known.im], i, place);
             wc.add_real(l, 2, i, still[0]);
             ww.add(l, 3, i, still);
-            wwc.add(l, 4, i, still);
-            www.add(l, 5, i, still);
             let once = term(l, [&known.turn_re, &known.turn_im], i, place);
             wt.add(l, 1, i, once);
-            wct.add_real(l, 2, i, once[0]);
-            wwt.add(l, 3, i, once);
             let twice = term(l, [&twice[0], &twice[1]], i, place);
             tt.add_real(l, 0, i, twice[0]);
-            wtt.add(l, 1, i, twice);
-            let thrice = term(l, [&thrice[0], &thrice[1]], i, place);
-            ttt.add_real(l, 0, i, thrice[0]);
+            if THIRD {
+                wwc.add(l, 4, i, still);
+                www.add(l, 5, i, still);
+                wct.add_real(l, 2, i, once[0]);
+                wwt.add(l, 3, i, once);
+                wtt.add(l, 1, i, twice);
+                let thrice = term(l, [&thrice[0], &thrice[1]], i, place);
+                ttt.add_real(l, 0, i, thrice[0]);
+            }
         }
         // From w in the first magnet's frame to that on the table.
         let scale = -MU0_OVER_4PI * self.moments;
@@ -331,7 +333,22 @@ pub(in crate::potential) mod tests {
         .map(|((one, other), power)| (one - other).norm() / scale * length.powi(power))
     }
 
-    /// They are those of the exact energies' slopes, by differences.
+    fn of_all_terms<const THIRD: bool>(
+        series: &Multipole,
+        [first, second]: [&Body; 2],
+    ) -> Derivatives {
+        Level::best().run(AtPlace::<THIRD> {
+            series,
+            known: &mut Known::none(),
+            derivatives: &mut AngleDerivatives::none(),
+            terms: MOST_TERMS,
+            axes: [first.direction, second.direction].map(complex),
+            way: complex(second.position - first.position),
+            moments: first.moment * second.moment,
+        })
+    }
+
+    /// They are those of the exact energies' slopes, by differences, and those of second order alone the same.
     #[test]
     fn derivatives_are_those_of_exact_energies() {
         for k in 0..24u32 {
@@ -340,17 +357,17 @@ pub(in crate::potential) mod tests {
             let way = Vector2::new(libm::cos(angle), libm::sin(angle)) * 0.024;
             let first = body(Shape::Disc, stands, Vector2::new(0.003, -0.001), 0.4);
             let second = body(shape, stands, first.position + way, 2.2 * angle);
-            let form = series_of(MagnetModel::Cuboid, &first, &second, 1e-9);
-            let axis = complex(first.direction);
-            let found = Level::best().run(AtPlace {
-                series: &form.series,
-                known: &mut Known::none(),
-                derivatives: &mut AngleDerivatives::none(),
-                terms: MOST_TERMS,
-                axes: [axis, complex(second.direction)],
-                way: complex(way),
-                moments: first.moment * second.moment,
-            });
+            let series = series_of(MagnetModel::Cuboid, &first, &second, 1e-9).series;
+            let found = of_all_terms::<true>(&series, [&first, &second]);
+            let second_ones = Derivatives {
+                ww: found.ww,
+                wc: found.wc,
+                wt: found.wt,
+                tt: found.tt,
+                ..Derivatives::default()
+            };
+            let alone = of_all_terms::<false>(&series, [&first, &second]);
+            assert_eq!(alone, second_ones);
             let length = 0.024f64;
             let scale = MU0_OVER_4PI * first.moment * second.moment / length.powi(3);
             let off = off_differences(&found, [&first, &second], [2e-4, 0.02], [scale, length]);

@@ -225,9 +225,9 @@ impl Facing<'_> {
         total.add::<L, SLOPE>(l, &sums, fixed.axis);
     }
 
-    /// Calls `each` with all pairs by their series and their indices in the groups, given what is known at
-    /// the angle between both groups. Those [nearer](FarForm::near) than it reaches are wrong. Derivatives are
-    /// zero unless requested.
+    /// Calls `each` with all pairs by their series and their indices in the groups, those first that need most terms,
+    /// given what is known at the angle between both groups. Those [nearer](FarForm::near) than it reaches are wrong.
+    /// Derivatives are zero unless requested.
     #[inline(always)]
     pub fn for_each<L: Lanes, const SLOPE: bool>(
         &self,
@@ -239,30 +239,60 @@ impl Facing<'_> {
             form,
             groups: [fixed, moving],
             turn,
-            centre,
+            ..
         } = self;
-        let count = fixed.count * moving.count;
-        for from in (0..count).step_by(WIDTH) {
-            let numbers = from..count.min(from + WIDTH);
+        let placed = self.by_terms();
+        for some in placed.chunks(WIDTH) {
             let mut columns = [[0.0; WIDTH]; 3];
-            // What is left over repeats the last pair.
-            let filled = numbers.clone().chain(std::iter::repeat(count - 1));
-            for (lane, number) in filled.take(WIDTH).enumerate() {
-                let (i, j) = (number % fixed.count, number / fixed.count);
-                let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
-                columns[0][lane] = place.re - fixed.x[i];
-                columns[1][lane] = place.im - fixed.y[i];
+            for lane in 0..WIDTH {
+                // What is left over repeats the last pair.
+                let Placed {
+                    way, at: [i, j], ..
+                } = some[lane.min(some.len() - 1)];
+                columns[0][lane] = way.re;
+                columns[1][lane] = way.im;
                 columns[2][lane] = moving.moment[j] * fixed.moment[i];
             }
             let [x, y, moments] = &columns;
             let pairs = Pairs::between(l, [l.load(x), l.load(y)], l.load(moments));
             let lanes =
                 form.alone::<L, SLOPE>(l, (fixed.axis, turn), &pairs, &mut known.borrow_mut());
-            for (number, found) in numbers.zip(&lanes) {
-                each([number % fixed.count, number / fixed.count], found);
+            for (placed, found) in some.iter().zip(&lanes) {
+                each(placed.at, found);
             }
         }
     }
+
+    /// All pairs, first those that need [many terms](MANY), so that few others share a vector with them.
+    fn by_terms(&self) -> Vec<Placed> {
+        let [fixed, moving] = self.groups;
+        let close = self.form.squares[MANY];
+        let mut all = Vec::with_capacity(fixed.count * moving.count);
+        let mut apart = Vec::with_capacity(fixed.count * moving.count);
+        for j in 0..moving.count {
+            let place = self.centre + self.turn * Complex::new(moving.x[j], moving.y[j]);
+            for i in 0..fixed.count {
+                let way = place - Complex::new(fixed.x[i], fixed.y[i]);
+                let list = match way.norm_sqr() < close {
+                    true => &mut all,
+                    false => &mut apart,
+                };
+                list.push(Placed { way, at: [i, j] });
+            }
+        }
+        all.append(&mut apart);
+        all
+    }
+}
+
+/// More than this one of [`STEPS`] are many terms.
+const MANY: usize = 4;
+
+/// A pair of two groups: the vector (m) between them, and their indices.
+#[derive(Clone, Copy)]
+struct Placed {
+    way: Complex<f64>,
+    at: [usize; 2],
 }
 
 impl FarForm {

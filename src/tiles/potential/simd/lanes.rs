@@ -123,6 +123,11 @@ pub trait Lanes: Arithmetic {
     fn sqrt(self, a: Self::F) -> Self::F;
     /// `a` where the sign bit of `condition` is clear, else `b`.
     fn select(self, condition: Self::F, a: Self::F, b: Self::F) -> Self::F;
+    /// The larger of two numbers.
+    #[inline(always)]
+    fn max(self, a: Self::F, b: Self::F) -> Self::F {
+        self.select(self.sub(a, b), a, b)
+    }
     /// The magnitude.
     #[inline(always)]
     fn abs(self, a: Self::F) -> Self::F {

@@ -70,7 +70,7 @@ fn enclosures_are_as_wide_as_they_were() {
         ),
         ("blocks", &blocks, 0.215, -6.0, (-12.327661205, 400)),
         ("shielded", &shielded, 0.04, -5.0, (-15.650531646, 400)),
-        ("discs", &*discs, 0.215, -6.0, (-15.527372209, 400)),
+        ("discs", &*discs, 0.215, -6.0, (-15.524554453, 400)),
     ] {
         let (mean, count) = mean_width(bounds, half_side, smallest);
         assert!(

@@ -10,31 +10,52 @@ const SERIES: f64 = 1e-7;
 /// of what the form leaves and more than this share of the energy of touching magnets.
 const UNKNOWN: f64 = 0.1;
 const TOUCHING: f64 = 1e-9;
+/// A form is of the lowest order that leaves no more than this share, over the number of pairs, of what pairs before
+/// leave, else of the third.
+const SPARE: f64 = 0.2;
+/// Terms are left out of derivatives that leave less than this share of the form's remainder.
+const OMITTED: f64 = 0.05;
 
 impl Pair<'_> {
     /// Adds the tightest form of a pair with these bounds of its series; returns what is left.
     pub(super) fn apart(&self, bounds: &OfSeries, out: &mut Sum) -> Left {
         let is_far = self.single.is_far;
-        let enough = (UNKNOWN * bounds.left.spread).max(TOUCHING * self.touching());
-        let is_known = is_far || bounds.unknown.spread <= enough;
+        let spare = SPARE / self.count * out.left.spread;
+        let order = (1..3).find(|order| bounds.remainder(*order) <= spare);
+        let order = order.unwrap_or(3);
+        let remainder = bounds.remainder(order);
+        let unknown = bounds.unknown();
+        let enough = (UNKNOWN * remainder).max(TOUCHING * self.touching());
+        let is_known = is_far || unknown.spread <= enough;
         let rest = match is_known && !is_far {
-            true => bounds.unknown,
+            true => unknown,
             false => Left::default(),
         };
         let near = self.distance() - self.centre_reach();
         let error = match is_known {
             true => self.strength * SERIES / (near * near * near),
-            false => self.error(bounds.apart.energy, LOST),
+            false => self.error(bounds.energy(), LOST),
         };
-        let left = bounds.left.plus(&rest).and(error);
+        let most = OMITTED * remainder.max(spare).max(error);
+        let (terms, omitted) = match order {
+            1 => (0, 0.0),
+            _ => bounds.terms(most),
+        };
+        let left = Left::of_order(order, remainder).plus(&Left::of_order(1, omitted));
+        let left = left.plus(&rest).and(error);
+        let steepest = bounds.slope();
         let constant = Left {
-            spread: bounds.apart.slope + error,
-            slope: bounds.apart.slope,
+            spread: steepest + error,
+            slope: steepest,
         };
-        let formed = left.spread + SHARED * bounds.apart.remainder;
+        let shared = match order {
+            3 => SHARED * bounds.remainder(2),
+            _ => 0.0,
+        };
+        let formed = left.spread + shared;
         let nothing = Left {
-            spread: bounds.apart.energy,
-            slope: bounds.apart.slope,
+            spread: bounds.energy(),
+            slope: steepest,
         };
         if nothing.spread <= formed.min(constant.spread) {
             return nothing;
@@ -50,7 +71,7 @@ impl Pair<'_> {
             out.form.value += energy.energy;
             return constant.plus(&rest);
         }
-        self.add_series(&energy, bounds.terms, out);
+        self.add_series(&energy, order, terms, out);
         left
     }
 }

@@ -14,15 +14,28 @@ fn slopes(energy: &PairEnergy) -> [f64; 3] {
 }
 
 impl Pair<'_> {
-    /// Adds the form of third order, with value and gradient of this energy and derivatives of so many terms
-    /// of the series.
-    pub(super) fn add_series(&self, energy: &PairEnergy, terms: usize, out: &mut Sum) {
+    /// Adds the form of this order, with value and gradient of this energy and derivatives of so many terms of the
+    /// series.
+    pub(super) fn add_series(
+        &self,
+        energy: &PairEnergy,
+        order: usize,
+        terms: usize,
+        out: &mut Sum,
+    ) {
         out.work += A_TERM * terms as u64;
-        let of = match self.cell.half == [0.0; 3] {
-            true => Derivatives::default(),
-            false => self.single.derivatives(terms),
-        };
-        self.add_form(energy, &of, out);
+        match order {
+            1 => self.add_linear(energy, out),
+            2 => self.add_quadratic(energy, &self.single.derivatives::<false>(terms), out),
+            _ => self.add_form(energy, &self.single.derivatives::<true>(terms), out),
+        }
+    }
+
+    /// Adds the form of first order.
+    pub(super) fn add_linear(&self, energy: &PairEnergy, out: &mut Sum) {
+        let hessian = [0.0; 6];
+        let linear = self.in_cell(energy, hessian);
+        out.form = out.form.minus(-1.0, &Quadratic { hessian, ..linear });
     }
 
     /// Adds the form of second order, with differences over a step (m).
@@ -88,7 +101,14 @@ impl Pair<'_> {
         self.add_form(&energy, &derivatives, out);
     }
 
+    /// Adds the form of third order with these derivatives.
     fn add_form(&self, energy: &PairEnergy, of: &Derivatives, out: &mut Sum) {
+        self.add_quadratic(energy, of, out);
+        out.cubic.add(self.arm, energy.gradient, of);
+    }
+
+    /// Adds that of second order.
+    fn add_quadratic(&self, energy: &PairEnergy, of: &Derivatives, out: &mut Sum) {
         let Derivatives { ww, wc, wt, tt, .. } = *of;
         let second = [
             2.0 * (wc + ww.re),
@@ -99,7 +119,6 @@ impl Pair<'_> {
             -2.0 * wt.im,
         ];
         out.form = out.form.minus(-1.0, &self.in_cell(energy, second));
-        out.cubic.add(self.arm, energy.gradient, of);
     }
 
     /// The form in the cell's coordinates, from the gradient and the Hessian in the second magnet's own

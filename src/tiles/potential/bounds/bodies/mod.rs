@@ -176,6 +176,7 @@ impl BodyBounds {
             arm: single.second.position - cell.centre.position(),
             depths: self.fixed[i].depth + self.moving[j].depth - self.slack,
             series: self.series[self.fixed[i].kind][self.moving[j].kind].as_ref(),
+            count: (self.fixed.len() * self.moving.len()) as f64,
             cell,
         };
         let left = match pair.by_series() {
@@ -234,6 +235,14 @@ struct Left {
 }
 
 impl Left {
+    /// The remainder (J) of a form of this order.
+    fn of_order(order: usize, spread: f64) -> Self {
+        Self {
+            spread,
+            slope: (order + 1) as f64 * spread,
+        }
+    }
+
     fn plus(&self, other: &Self) -> Self {
         Self {
             spread: self.spread + other.spread,
@@ -270,6 +279,8 @@ struct Pair<'a> {
     /// The least distance (m) of the magnets in free configurations.
     depths: f64,
     series: Option<&'a SeriesBounds>,
+    /// How many pairs there are.
+    count: f64,
     cell: &'a Cell,
 }
 
@@ -295,7 +306,7 @@ impl Pair<'_> {
     }
 
     /// The bounds of the series, if the magnets stay far enough apart.
-    fn by_series(&self) -> Option<OfSeries> {
+    fn by_series(&self) -> Option<OfSeries<'_>> {
         let v = self.centre_reach();
         let moved = [v, self.cell.half[2]];
         self.series?.at(self.distance() - v, moved, self.strength)

@@ -49,7 +49,7 @@ impl Limits {
         let [first, second, x] = [self.first, self.second, self.x];
         let (third, fourth) = (self.third[which], self.fourth[which]);
         let bend = lever * w * w;
-        if v == 0.0 || !third.is_finite() {
+        if !third.is_finite() {
             return [third, f64::INFINITY];
         }
         [
@@ -154,9 +154,6 @@ impl Pair<'_> {
         let Single { first, second, .. } = self.single;
         let (v, w) = (self.reach(), self.cell.half[2]);
         let (lever, radius) = (self.lever(), self.magnets[1].radius);
-        let apart = Apart::of(Level::best(), [first, second], [v, w]);
-        let most = apart.map_or(f64::INFINITY, |apart| apart.energy);
-        let most = most.min(self.touching()) * ROOM;
         // What exact energies and their slopes err.
         let distances = distances(first, second);
         let closest = distances.map(|[aside, height]| aside.max(height));
@@ -165,6 +162,15 @@ impl Pair<'_> {
             true => (GRAZING.1, GRAZING.1),
             false => (LOST, EXACT),
         };
+        if v == 0.0 {
+            out.work += AN_ENERGY;
+            let still = self.single.still();
+            self.add_linear(&still, out);
+            return Left::default().and(self.error(still.energy.abs(), lost));
+        }
+        let apart = Apart::of(Level::best(), [first, second], [v, w]);
+        let most = apart.map_or(f64::INFINITY, |apart| apart.energy);
+        let most = most.min(self.touching()) * ROOM;
         let error = self.error(most, lost);
 
         let aside = |aside: f64| {
@@ -209,7 +215,7 @@ impl Pair<'_> {
                 slope: steepest,
             };
         }
-        if v > 0.0 && third_order + SHARED * spreads.third < worth_third * others {
+        if third_order + SHARED * spreads.third < worth_third * others {
             match is_derived {
                 true => self.add_derived(out),
                 false => self.add_third_order(long_step * v, out),
@@ -219,7 +225,7 @@ impl Pair<'_> {
                 slope: 4.0 * third_order,
             };
         }
-        if v > 0.0 && second_order < WORTH * first_order.min(value) {
+        if second_order < WORTH * first_order.min(value) {
             self.add_second_order(step * v, out);
             return Left {
                 spread: second_order,

@@ -32,18 +32,23 @@ use std::sync::LazyLock;
 use nalgebra::Vector2;
 
 use crate::potential::bodies::Body;
+use crate::potential::simd::Level;
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::tile::magnet::Shape;
 
-/// Arcs of half a rim.
-const ARCS: usize = 12;
-/// Of each arc of half a circle: cosine and sine of its middle, and the largest root that stands in K.
-static ARC: LazyLock<[[f64; 3]; ARCS]> = LazyLock::new(|| {
-    std::array::from_fn(|k| {
+/// Arcs of half a rim, in whole vectors.
+const ARCS: usize = 2 * WIDTH;
+/// Of the arcs of half a circle: cosines and sines of their middles, and the largest roots that stand in K.
+static ARC: LazyLock<[[f64; ARCS]; 3]> = LazyLock::new(|| {
+    let mut arcs = [[0.0; ARCS]; 3];
+    for k in 0..ARCS {
         let step = PI / ARCS as f64;
         let (sin, cos) = libm::sincos((k as f64 + 0.5) * step);
         let most = (sin + step / 2.0).min(1.0);
-        [cos, sin, (1.0 + most * most).sqrt()]
-    })
+        (arcs[0][k], arcs[1][k]) = (cos, sin);
+        arcs[2][k] = (1.0 + most * most).sqrt();
+    }
+    arcs
 });
 
 /// The rims of two discs that both lie or both stand.
@@ -89,30 +94,61 @@ impl Rims {
     }
 
     /// K and L (1, 1/m) of a pair of faces that stay `apart` (m), while points move by at most `reach` (m).
-    #[inline]
     pub fn limits(&self, pair: usize, [apart, reach]: [f64; 2]) -> [f64; 2] {
-        let [[along, across], [one, other]] = [self.ways[pair], self.radii];
+        Level::best().run(Arcs {
+            rims: self,
+            way: self.ways[pair],
+            apart,
+            reach,
+        })
+    }
+}
+
+/// K and L of two faces, see [`Rims::limits`].
+struct Arcs<'a> {
+    rims: &'a Rims,
+    way: [f64; 2],
+    apart: f64,
+    reach: f64,
+}
+
+impl Task for Arcs<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> [f64; 2] {
+        let &Rims {
+            radii: [one, other],
+            diameter,
+            stand,
+            ..
+        } = self.rims;
         let half_arc = other * (PI / (2 * ARCS) as f64);
-        let margin = reach + half_arc;
-        let mut sums = [0.0; 2];
-        for [cos, sin, root] in *ARC {
-            let (aside, up) = (other * cos, other * sin);
-            let [x, h] = [
-                along + aside * self.diameter[0],
-                across + aside * self.diameter[1],
-            ];
-            let a = (x * x + up * up).sqrt();
-            let [near, far] = [a - one, a + one].map(|it| {
-                let distance = (it * it + h * h).sqrt() - margin;
-                distance.max(apart)
-            });
-            let root = if self.stand { 1.0 } else { root };
-            let third = root / (near * far);
-            sums[0] += third;
-            sums[1] += 2.0 * third / near;
+        let (apart, margin) = (l.splat(self.apart), l.splat(self.reach + half_arc));
+        let (own, along, up) = (l.splat(one), l.splat(self.way[0]), l.splat(self.way[1]));
+        let [mut third, mut fourth] = [l.splat(0.0); 2];
+        for k in (0..ARCS).step_by(WIDTH) {
+            let aside = l.mul(l.splat(other), l.load(&ARC[0][k..]));
+            let over = l.mul(l.splat(other), l.load(&ARC[1][k..]));
+            let x = l.mul_add(aside, l.splat(diameter[0]), along);
+            let h = l.mul_add(aside, l.splat(diameter[1]), up);
+            let a = l.sqrt(l.mul_add(x, x, l.mul(over, over)));
+            let square = l.mul(h, h);
+            let (within, beyond) = (l.sub(a, own), l.add(a, own));
+            let near = l.sub(l.sqrt(l.mul_add(within, within, square)), margin);
+            let far = l.sub(l.sqrt(l.mul_add(beyond, beyond, square)), margin);
+            let (near, far) = (l.max(near, apart), l.max(far, apart));
+            let root = match stand {
+                true => l.splat(1.0),
+                false => l.load(&ARC[2][k..]),
+            };
+            let own = l.div(root, l.mul(near, far));
+            third = l.add(third, own);
+            fourth = l.add(fourth, l.div(l.add(own, own), near));
         }
         // Both halves of the rim are alike.
-        sums.map(|sum| 4.0 * half_arc * 2.0 * PI * one * sum)
+        let scale = 4.0 * half_arc * 2.0 * PI * one;
+        [scale * l.sum(third), scale * l.sum(fourth)]
     }
 }
 

@@ -26,13 +26,12 @@
 //! (v / rho)^i w^(j-i)`, where B_ij(m) are the r-Stirling numbers, `B_ij = B_(i-1)(j-1) + (m + i) B_i(j-1)`, from
 //! B_00 = 1 (Broder 1984, Discrete Mathematics 49, 241).
 //!
-//! **The form of third order** has second and third derivatives of the first terms only, as many as a distance
-//! needs. What it leaves is a remainder of fourth order, and one of second order of the other terms.
+//! **Forms** of second and of third order have these derivatives of the first terms only, as many as a cell needs.
+//! What they leave is a remainder of the next order, and one of second order of the other terms.
 //!
 //! Term 0 is that of dipoles. The sums fall with rho: they are known at some distances, and hold from each
 //! of these on.
 
-use super::super::apart::Apart;
 use super::Left;
 use crate::potential::bodies::{Body, magnitudes_of};
 use crate::potential::classes::{class_of, shortest};
@@ -46,10 +45,6 @@ const ALL: usize = 400;
 /// The least distance of the sums, and one from which on they are those at this one, in units of s.
 const LEAST: f64 = 1.2;
 const MOST: f64 = 1024.0;
-/// The form of third order leaves out terms whose share of its second order is less than this, as a share of the
-/// dipoles' energy, for motions over a sixtieth of the distance.
-const LITTLE: f64 = 1e-7;
-const USUAL: f64 = 1.0 / 60.0;
 /// Room for rounding.
 const ROOM: f64 = 1.0 + 1e-9;
 
@@ -66,27 +61,73 @@ pub(super) struct SeriesBounds {
 type Derivative<const N: usize> = [f64; N];
 
 /// The sums in the bounds.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Sums {
     energy: f64,
     slope: Derivative<2>,
+    second: Derivative<3>,
     third: Derivative<4>,
     fourth: Derivative<5>,
-    /// The number of terms of the form of third order, and the second derivative of the others.
-    terms: usize,
-    omitted: Derivative<3>,
+    /// The second derivative of the terms after the first, after the second and so on.
+    omitted: [Derivative<3>; MOST_TERMS],
     /// The energy and the slope of the terms that are never summed.
     unknown: (f64, Derivative<2>),
 }
 
 /// Bounds of two magnets over a cell.
-pub(super) struct OfSeries {
-    pub apart: Apart,
-    /// The number of terms of the form of third order, and what it leaves if value and gradient are known.
-    pub terms: usize,
-    pub left: Left,
+pub(super) struct OfSeries<'a> {
+    sums: &'a Sums,
+    /// The speed (m) of the second one's centre, and its turn.
+    motion: [f64; 2],
+    scale: f64,
+}
+
+impl OfSeries<'_> {
+    /// Of the energy (J).
+    pub fn energy(&self) -> f64 {
+        self.scale * self.sums.energy
+    }
+
+    /// Of its change (J) along a motion.
+    pub fn slope(&self) -> f64 {
+        self.scale * of_motion(&self.sums.slope, self.motion)
+    }
+
+    /// What a form of this order, from 1 to 3, leaves (J).
+    pub fn remainder(&self, order: usize) -> f64 {
+        let Sums {
+            second,
+            third,
+            fourth,
+            ..
+        } = self.sums;
+        self.scale
+            * match order {
+                1 => of_motion(second, self.motion) / 2.0,
+                2 => of_motion(third, self.motion) / 6.0,
+                _ => of_motion(fourth, self.motion) / 24.0,
+            }
+    }
+
+    /// How many terms a form must have that leaves no more than this (J) of the others, if there are as many, and
+    /// what it leaves of them.
+    pub fn terms(&self, most: f64) -> (usize, f64) {
+        let omitted = |sums| self.scale * of_motion(sums, self.motion) / 2.0;
+        let all = self.sums.omitted.iter().map(omitted).enumerate();
+        let mut all = all.map(|(k, left)| (k + 1, left));
+        let last = all.clone().next_back();
+        all.find(|(_, left)| *left <= most)
+            .or(last)
+            .unwrap_or_default()
+    }
+
     /// What the terms that are never summed add.
-    pub unknown: Left,
+    pub fn unknown(&self) -> Left {
+        Left {
+            spread: self.scale * self.sums.unknown.0,
+            slope: self.scale * of_motion(&self.sums.unknown.1, self.motion),
+        }
+    }
 }
 
 impl SeriesBounds {
@@ -114,30 +155,14 @@ impl SeriesBounds {
         }
     }
 
-    /// For magnets whose centres stay a distance (m) apart, where the second one's moves by at most v (m) and
-    /// turns by at most w, in units of `strength` (J m^3); `None` if that is too close.
-    pub fn at(&self, distance: f64, [v, w]: [f64; 2], strength: f64) -> Option<OfSeries> {
+    /// For magnets whose centres stay a distance (m) apart, where the second one's moves and turns by at most this
+    /// `motion` (m, rad), in units of `strength` (J m^3); `None` if that is too close.
+    pub fn at(&self, distance: f64, motion: [f64; 2], strength: f64) -> Option<OfSeries<'_>> {
         let class = class_of(distance.max(0.0)).checked_sub(self.first)?;
-        let sums = &self.sums[class.min(self.sums.len() - 1)];
-        let scale = ROOM * strength;
-        let fourth = scale * of_motion(&sums.fourth, [v, w]) / 24.0;
-        let omitted = scale * of_motion(&sums.omitted, [v, w]) / 2.0;
         Some(OfSeries {
-            apart: Apart {
-                energy: scale * sums.energy,
-                slope: scale * of_motion(&sums.slope, [v, w]),
-                remainder: scale * of_motion(&sums.third, [v, w]) / 6.0,
-                is_coarse: false,
-            },
-            terms: sums.terms,
-            left: Left {
-                spread: fourth + omitted,
-                slope: 4.0 * fourth + 2.0 * omitted,
-            },
-            unknown: Left {
-                spread: scale * sums.unknown.0,
-                slope: scale * of_motion(&sums.unknown.1, [v, w]),
-            },
+            sums: &self.sums[class.min(self.sums.len() - 1)],
+            motion,
+            scale: ROOM * strength,
         })
     }
 }
@@ -169,20 +194,18 @@ impl Sums {
         let mut sums = Self::default();
         let inverse = 1.0 / rho;
         let term = |k: usize| magnitudes[k] * inverse.powi(3) * (s * inverse).powi(2 * k as i32);
-        let mut second = [0.0; 3];
         for k in (0..magnitudes.len()).rev() {
             if k + 1 == MOST_TERMS {
                 sums.unknown = (sums.energy, sums.slope);
             }
-            let is_little = of_motion(&second, [USUAL * rho, USUAL]) <= LITTLE * term(0);
-            if k + 1 == MOST_TERMS || (k + 1 < MOST_TERMS && is_little) {
-                (sums.terms, sums.omitted) = (k + 1, second);
+            if k < MOST_TERMS {
+                sums.omitted[k] = sums.second;
             }
             let (n, m) = ((2 * k + 3) as f64, 2.0 * k as f64 + least_turn);
             let term = term(k);
             sums.energy += term;
             add(&mut sums.slope, term, [n, m, inverse]);
-            add(&mut second, term, [n, m, inverse]);
+            add(&mut sums.second, term, [n, m, inverse]);
             add(&mut sums.third, term, [n, m, inverse]);
             add(&mut sums.fourth, term, [n, m, inverse]);
         }
@@ -211,16 +234,16 @@ fn add<const N: usize>(sums: &mut Derivative<N>, term: f64, [n, m, inverse]: [f6
 mod tests {
     use nalgebra::Vector2;
 
-    use super::super::super::apart::tests::check;
+    use super::super::super::apart::{Apart, tests::check};
     use super::*;
     use crate::potential::bodies::exact;
     use crate::units::MU0_OVER_4PI;
 
-    /// The energy and its first and third derivatives by time, by differences, along motions that turn the
-    /// second magnet about a point and shift it, are within the bounds, and these are not much wider.
+    /// The energy and its derivatives up to the fourth by time, by differences, along motions that turn the second
+    /// magnet about a point and shift it, are within the bounds, and these are not much wider.
     #[test]
     fn energies_and_derivatives_stay_within_their_bounds() {
-        let (mut closest, mut count) = ([f64::INFINITY; 3], 0);
+        let (mut closest, mut count) = ([f64::INFINITY; 5], 0);
         for k in 0..240u32 {
             let stands = k % 3 == 2;
             let size = match stands {
@@ -245,9 +268,14 @@ mod tests {
             let centre = second.position - Vector2::new(0.02, 0.01);
             let (turn, half) = (0.02, 0.0004);
             let reach = half + (second.position - centre).norm() * turn;
-            let Some(OfSeries { apart, .. }) = bounds.at(r - reach, [reach, turn], MU0_OVER_4PI)
-            else {
+            let Some(of) = bounds.at(r - reach, [reach, turn], MU0_OVER_4PI) else {
                 continue;
+            };
+            let apart = Apart {
+                energy: of.energy(),
+                slope: of.slope(),
+                remainder: of.remainder(2),
+                is_coarse: false,
             };
             let shift = way * half * if k % 2 == 0 { 1.0 } else { -1.0 };
             let at = |t: f64| {
@@ -260,13 +288,26 @@ mod tests {
             };
             let h = 0.15;
             for t in [-0.7, 0.0, 0.6] {
-                let ratios = check(&apart, &at, (t, h, 1e-10), &k.to_string());
-                closest = [0, 1, 2].map(|i| f64::min(closest[i], ratios[i]));
+                let [energy, first, third] = check(&apart, &at, (t, h, 1e-10), &k.to_string());
+                let [a, b, c, d, e] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|step| at(t + step * h));
+                let differences = [
+                    (b - 2.0 * c + d, 2, 1),
+                    (a - 4.0 * b + 6.0 * c - 4.0 * d + e, 4, 3),
+                ];
+                let [second, fourth] = differences.map(|(difference, power, order)| {
+                    let found = difference.abs() / h.powi(power);
+                    let bound = [2.0, 24.0][order / 2] * of.remainder(order);
+                    let lost = 1e-11 * apart.energy / h.powi(power);
+                    assert!(found <= bound + lost, "{k} {t}: {found} {bound}");
+                    bound / found
+                });
+                let ratios = [energy, first, second, third, fourth];
+                closest = [0, 1, 2, 3, 4].map(|i| f64::min(closest[i], ratios[i]));
                 count += 1;
             }
         }
         assert!(count > 500, "{count}");
-        let most = [1.6, 2.5, 5.0];
+        let most = [1.6, 2.5, 3.0, 5.0, 9.0];
         let tight = closest.iter().zip(most).all(|(ratio, most)| *ratio < most);
         assert!(tight, "{closest:?}");
     }
