@@ -1,11 +1,12 @@
 //! Bounds of the interaction energy of magnets of any form over a cell: discs that lie, and upright
 //! blocks.
 //!
-//! **Pairs apart**, by somewhat more than the sum of their half diagonals, have the form of third order of
-//! their multipole series (see [`far`] and [`series`]). Terms of third order are added up, and what the linear
-//! form nearest to them leaves ([`cubic`]) counts once for all pairs: much of it cancels.
+//! **Pairs apart**, by somewhat more than the sum of their half diagonals, have a form of their multipole series (see
+//! [`far`] and [`series`]): of first or second order where that leaves little beside what nearer pairs leave, else of
+//! third order. Terms of third order are added up, and what the linear form nearest to them leaves ([`cubic`])
+//! counts once for all pairs: much of it cancels.
 //!
-//! **Near pairs** have the tightest of these:
+//! **Near pairs** at a single place have their energy. Over a cell they have the tightest of these:
 //!
 //! * the form of second order, with value and gradient of the exact energy at the cell's centre and a
 //!   Hessian from differences of the gradient over a step h. Its remainder is that of uniform
