@@ -25,7 +25,9 @@ mod rim;
 mod short;
 mod solve;
 mod step;
+mod sweeps;
 mod together;
+mod turns;
 mod way;
 
 pub use account::Account;

@@ -8,47 +8,22 @@
 //! `|f| <= mu p`, and `t.v = 0` unless `f = -+ mu p` holds against the sliding
 //!
 //! (Stewart and Trinkle 1996, Int. J. Numer. Meth. Eng. 39, 2673; Anitescu and Potra 1997,
-//! Nonlinear Dynamics 14, 231). They are found by sweeps that solve one point after the other,
-//! starting from the impulses of the previous solution. After each sweep the impulses go on by a
-//! share of its change, as in momentum methods (Polyak 1964, USSR Computational Mathematics and
-//! Mathematical Physics 4, 1), with the share from how much less this sweep changed than the one
-//! before; without this, clusters take thousands of sweeps. (On 1,247 clusters of 6 to 85 points
-//! from a frozen table this takes 1.4 million solutions of a point; with conjugate directions,
-//! Silcowitz-Hansen, Niebe and Erleben 2010, The Visual Computer 26, 893, it takes 2.6 million.
-//! Newton steps on the set of active points cycle among points that carry little.) The impulses on
-//! two tiles act at the same point and are equal and opposite.
-//!
-//! Where they are not found by sweeps, they are by pivots ([`super::pivot`]).
-//!
-//! Where tiles rub on the table they lie on, the points of [`super::rest`] belong to the same sweeps, and take
-//! turns with pivots.
+//! Nonlinear Dynamics 14, 231). They are found by [`sweeps`](super::sweeps), from the impulses of the previous
+//! solution. Where they are not, they are by pivots, which take [turns](super::turns) with the friction on a table.
+//! The impulses on two tiles act at the same point and are equal and opposite.
 
 use nalgebra::Vector3;
 
 use super::clusters::{Cluster, Clusters, from_both_halves};
 use super::hold::Hold;
-use super::pivot::by_pivots;
 use super::point::{SolverPoint, four};
 use super::rest::{Four, Rest, RestPoint};
+use super::sweeps::Sweeps;
+use super::turns::Turns;
 use tiles::potential::simd::Level;
-use tiles::potential::simd::lanes::{Lanes, Task};
 
-/// Largest number of sweeps.
-const SWEEPS: usize = 1000;
-/// This many sweeps at the end are plain ones, which always converge towards the solution.
-const PLAIN: usize = 500;
 /// Largest number of points that are solved by pivots: their work grows with the cube of it.
 const PIVOTED: usize = 100;
-/// Pivots and friction on the table take turns this often at most.
-const TURNS: usize = 200;
-/// What they would still change is extrapolated after so many.
-const AITKEN: usize = 6;
-/// Friction on the table is solved for alone until a sweep changes velocities by less than this share of the error.
-const RUBBED: f64 = 0.01;
-/// Slowest convergence that is assumed: the share of a sweep's change that the next one makes.
-const SLOWEST: f64 = 0.99;
-/// Largest share of a sweep's change by which the impulses go on after it.
-const MOMENTUM: f64 = 0.85;
 
 /// The solver of a set of points: what it makes of them is kept, as they are often solved for several times.
 #[derive(Default)]
@@ -193,7 +168,7 @@ impl Prepared {
         self.free.clear();
         self.free.extend(own);
         self.velocities.clone_from(&self.free);
-        let solution = Solution {
+        let sweeps = Sweeps {
             roots: &self.roots,
             velocities: &mut self.velocities,
             before: &mut self.before,
@@ -202,9 +177,18 @@ impl Prepared {
             rests: &mut self.rests,
             error,
         };
-        let mut is_found = Level::best().run(solution).is_some();
+        let mut is_found = Level::best().run(sweeps).is_some();
         if !is_found && self.points.len() <= PIVOTED {
-            is_found = self.pivot(error).is_some();
+            let turns = Turns {
+                roots: &self.roots,
+                free: &self.free,
+                velocities: &mut self.velocities,
+                before: &mut self.before,
+                points: &mut self.points,
+                rests: &mut self.rests,
+                error,
+            };
+            is_found = turns.pivot().is_some();
         }
         for (k, point) in self.order.iter().zip(&self.points) {
             holds[*k].impulses = point.impulses;
@@ -220,152 +204,9 @@ impl Prepared {
     }
 }
 
-impl Prepared {
-    /// Solves by pivots; friction on the table takes turns with them, as it is no linear law.
-    fn pivot(&mut self, error: f64) -> Option<()> {
-        let mut last = f64::INFINITY;
-        for turn in 1..=TURNS {
-            self.velocities.clone_from(&self.free);
-            for rest in &self.rests {
-                rest.push(rest.impulse, &mut self.velocities);
-            }
-            let impulses = by_pivots(&self.points, &self.velocities)?;
-            for (point, impulses) in self.points.iter_mut().zip(impulses) {
-                point.impulses = impulses;
-                point.push(impulses, &mut self.velocities);
-            }
-            let before: Vec<_> = self.rests.iter().map(|it| it.impulse).collect();
-            self.rub(error);
-            let mut points = self.points.iter();
-            if points.all(|it| it.obeys(&self.velocities, error)) {
-                return Some(());
-            }
-            if self.rests.is_empty() {
-                return None;
-            }
-            let each = self.rests.iter().zip(&before);
-            let change = each.map(|(it, before)| [0, 1].map(|k| it.impulse[k] - before[k]));
-            let changes: Vec<[f64; 2]> = change.collect();
-            let squares = changes.iter().flatten().map(|it| it * it);
-            let size = squares.sum::<f64>().sqrt();
-            // Each turn changes by a share of the one before: from time to time by all that is to come (Aitken).
-            let share = size / last;
-            last = size;
-            if turn.is_multiple_of(AITKEN) && share < 1.0 {
-                for (rest, change) in self.rests.iter_mut().zip(changes) {
-                    let more = share / (1.0 - share);
-                    rest.impulse = rest.within([0, 1].map(|k| rest.impulse[k] + change[k] * more));
-                }
-                last = f64::INFINITY;
-            }
-        }
-        None
-    }
-
-    /// Solves for friction on the table alone.
-    fn rub(&mut self, error: f64) {
-        for _ in 0..SWEEPS {
-            self.before.clone_from(&self.velocities);
-            for rest in &mut self.rests {
-                rest.solve(&mut self.velocities);
-            }
-            let each = self.velocities.iter().zip(&self.before).zip(&self.roots);
-            let change = each.map(|((now, before), root)| {
-                let [x, y, turn] = [0, 1, 2].map(|k| now[k] - before[k]);
-                (x * x + y * y + turn * turn) * root.x * root.x
-            });
-            if change.fold(0.0, f64::max) < (RUBBED * error).powi(2) {
-                return;
-            }
-        }
-    }
-}
-
-/// Solves for all points of a cluster whose masses have these inverse roots; its result is the number
-/// of sweeps, or `None` if they did not suffice.
-struct Solution<'a> {
-    roots: &'a [Vector3<f64>],
-    velocities: &'a mut [Four],
-    /// Room for the velocities before and after a sweep.
-    before: &'a mut Vec<Four>,
-    swept: &'a mut Vec<Four>,
-    points: &'a mut [SolverPoint],
-    rests: &'a mut [RestPoint],
-    error: f64,
-}
-
-impl Task for Solution<'_> {
-    type Output = Option<usize>;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, _: L) -> Option<usize> {
-        let Self {
-            roots,
-            velocities,
-            before,
-            swept,
-            points,
-            rests,
-            error,
-        } = self;
-        for point in points.iter() {
-            point.push(point.impulses, velocities);
-        }
-        for point in rests.iter() {
-            point.push(point.impulse, velocities);
-        }
-        for it in [&mut *before, &mut *swept] {
-            it.clear();
-            it.extend_from_slice(velocities);
-        }
-        let mut last = f64::INFINITY;
-        for sweep in 0..SWEEPS {
-            for point in points.iter_mut() {
-                point.solve(velocities);
-            }
-            for point in rests.iter_mut() {
-                point.solve(velocities);
-            }
-            // Nearly redundant points may keep correcting each other, so the change over a whole
-            // sweep counts.
-            let [mut size, mut fastest] = [0.0; 2];
-            for ((now, before), root) in velocities.iter().zip(&*before).zip(roots) {
-                let [x, y, turn] = [0, 1, 2].map(|k| now[k] - before[k]);
-                let square = x * x + y * y + turn * turn;
-                size += square;
-                fastest = f64::max(fastest, square * root.x * root.x);
-            }
-            // If each sweep changes them by a share of the one before, this much is still to come.
-            let share = (size / last).sqrt();
-            let to_come = 1.0 / (1.0 - share.min(SLOWEST));
-            if fastest * to_come * to_come < error * error {
-                return Some(sweep + 1);
-            }
-            if sweep + PLAIN < SWEEPS {
-                let share = share.min(MOMENTUM);
-                for (now, swept) in velocities.iter_mut().zip(&mut *swept) {
-                    for (now, swept) in now.iter_mut().zip(swept) {
-                        let change = *now - *swept;
-                        *swept = *now;
-                        *now += change * share;
-                    }
-                }
-                for point in points.iter_mut() {
-                    point.go_on(share, velocities);
-                }
-                for point in rests.iter_mut() {
-                    point.go_on(share, velocities);
-                }
-            }
-            last = size;
-            before.copy_from_slice(velocities);
-        }
-        None
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::pivot::by_pivots;
     use super::*;
     use nalgebra::Vector2;
     use rand::{RngExt, SeedableRng};
@@ -586,7 +427,7 @@ mod tests {
                     .map(|(v, root)| four(v.component_div(root)))
                     .collect();
                 let mut solve = || {
-                    Level::best().run(Solution {
+                    Level::best().run(Sweeps {
                         roots: &roots,
                         velocities: &mut scaled.clone(),
                         before: &mut Vec::new(),

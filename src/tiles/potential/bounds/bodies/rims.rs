@@ -40,15 +40,13 @@ use crate::tile::magnet::Shape;
 const ARCS: usize = 2 * WIDTH;
 /// Of the arcs of half a circle: cosines and sines of their middles, and the largest roots that stand in K.
 static ARC: LazyLock<[[f64; ARCS]; 3]> = LazyLock::new(|| {
-    let mut arcs = [[0.0; ARCS]; 3];
-    for k in 0..ARCS {
+    let arcs: [[f64; 3]; ARCS] = std::array::from_fn(|k| {
         let step = PI / ARCS as f64;
         let (sin, cos) = libm::sincos((k as f64 + 0.5) * step);
         let most = (sin + step / 2.0).min(1.0);
-        (arcs[0][k], arcs[1][k]) = (cos, sin);
-        arcs[2][k] = (1.0 + most * most).sqrt();
-    }
-    arcs
+        [cos, sin, (1.0 + most * most).sqrt()]
+    });
+    [0, 1, 2].map(|i| arcs.map(|arc| arc[i]))
 });
 
 /// The rims of two discs that both lie or both stand.
