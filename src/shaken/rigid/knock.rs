@@ -59,21 +59,12 @@ impl<W: World> Island<'_, W> {
             for (hold, back) in holds.iter_mut().zip(backs) {
                 hold.least = back;
             }
-            let bounced = match knocked(solver, inverse, &before, &mut holds, error) {
-                Ok(bounced) => bounced,
-                Err(Unsolved) => {
-                    let e = self.laws.restitution;
-                    let each = before.iter().zip(&stopped);
-                    let free: Each<_> = each.map(|(v, stop)| stop + (stop - v) * e).collect();
-                    let after = stopped_again(solver, inverse, &free, &mut holds, error)?;
-                    for (hold, stop) in holds.iter_mut().zip(&of_stop) {
-                        for (impulse, stop) in hold.impulses.iter_mut().zip(stop) {
-                            *impulse += stop * (1.0 + e);
-                        }
-                    }
-                    after
-                }
-            };
+            let bounced = knocked(solver, inverse, &before, &mut holds, error);
+            let bounced = bounced.or_else(|Unsolved| {
+                let law = [self.laws.restitution, error];
+                let stop = (&stopped[..], &of_stop[..]);
+                given_back(solver, inverse, &before, stop, &mut holds, law)
+            })?;
             let each = bounced.iter().zip(&stopped);
             let change: Each<_> = each.map(|(bounced, stopped)| bounced - stopped).collect();
             let share = share_within(masses, &stopped, &change, kinetic(masses, &before));
@@ -95,18 +86,27 @@ impl<W: World> Island<'_, W> {
 /// The velocities after a knock whose bounces contradict each other, as in wedges: by Poisson's law, a share of
 /// the impulses that stop the knock is given back, and what closes then is stopped (Anitescu and Potra 1997).
 /// There always are such impulses.
-fn stopped_again(
+fn given_back(
     solver: &mut Solver,
     inverse: &[Vector3<f64>],
-    free: &[Vector3<f64>],
+    before: &[Vector3<f64>],
+    (stopped, of_stop): (&[Vector3<f64>], &[[f64; 2]]),
     holds: &mut [Hold],
-    error: f64,
+    [share, error]: [f64; 2],
 ) -> Result<Each<Vector3<f64>>, Unsolved> {
     for hold in holds.iter_mut() {
         hold.least = 0.0;
         hold.impulses = [0.0; 2];
     }
-    knocked(solver, inverse, free, holds, error)
+    let each = before.iter().zip(stopped);
+    let free: Each<_> = each.map(|(v, stop)| stop + (stop - v) * share).collect();
+    let after = knocked(solver, inverse, &free, holds, error)?;
+    for (hold, stop) in holds.iter_mut().zip(of_stop) {
+        for (impulse, stop) in hold.impulses.iter_mut().zip(stop) {
+            *impulse += stop * (1.0 + share);
+        }
+    }
+    Ok(after)
 }
 
 /// The velocities after a knock. Where the search does not suffice, as in wedges, it goes on.

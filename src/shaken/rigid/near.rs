@@ -86,19 +86,20 @@ impl NearPair {
     ) -> Pull {
         let kinds = movers.map(|it| it.kind);
         let q = poses[0].to(&poses[1].at);
-        let Some((at, (energy, force, torque))) = self.pulled else {
-            let found = world.pull(kinds, &q);
-            self.pulled = Some((q, found));
-            return on_the_table(found, movers, poses);
-        };
-        let way = moved(world.contact(kinds), [&at, &q]);
-        if way <= SAME_PULL * margins.skin {
-            let step = at.step_to(&q);
-            let energy = energy - force.dot(&step.xy()) - torque * step.z;
-            return on_the_table((energy, force, torque), movers, poses);
+        let mut last = None;
+        if let Some((at, (energy, force, torque))) = self.pulled {
+            let way = moved(world.contact(kinds), [&at, &q]);
+            if way <= SAME_PULL * margins.skin {
+                let step = at.step_to(&q);
+                let energy = energy - force.dot(&step.xy()) - torque * step.z;
+                return on_the_table((energy, force, torque), movers, poses);
+            }
+            last = Some((way, force));
         }
         let found = world.pull(kinds, &q);
-        if way > RESOLVED * margins.feature {
+        if let Some((way, force)) = last
+            && way > RESOLVED * margins.feature
+        {
             self.stiffness = (found.1 - force).norm() / way;
         }
         self.pulled = Some((q, found));

@@ -63,6 +63,20 @@ pub fn four(v: Vector3<f64>) -> Four {
     [v.x, v.y, v.z, 0.0]
 }
 
+/// By how much velocities differ from those before: the sum of squares, and the largest square of one of them
+/// (m^2/s^2), given the inverse roots of the masses.
+#[inline(always)]
+pub fn change([now, before]: [&[Four]; 2], roots: &[Vector3<f64>]) -> [f64; 2] {
+    let [mut sum, mut fastest] = [0.0; 2];
+    for ((now, before), root) in now.iter().zip(before).zip(roots) {
+        let [x, y, turn] = [0, 1, 2].map(|k| now[k] - before[k]);
+        let square = x * x + y * y + turn * turn;
+        sum += square;
+        fastest = f64::max(fastest, square * root.x * root.x);
+    }
+    [sum, fastest]
+}
+
 /// The sum of the products of both sides.
 #[inline(always)]
 pub fn along(row: &[Four; 2], [a, b]: [&Four; 2]) -> f64 {

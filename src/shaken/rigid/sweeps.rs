@@ -11,7 +11,7 @@
 
 use nalgebra::Vector3;
 
-use super::point::SolverPoint;
+use super::point::{SolverPoint, change};
 use super::rest::{Four, RestPoint};
 use tiles::potential::simd::lanes::{Lanes, Task};
 
@@ -71,13 +71,7 @@ impl Task for Sweeps<'_> {
             }
             // Nearly redundant points may keep correcting each other, so the change over a whole
             // sweep counts.
-            let [mut size, mut fastest] = [0.0; 2];
-            for ((now, before), root) in velocities.iter().zip(&*before).zip(roots) {
-                let [x, y, turn] = [0, 1, 2].map(|k| now[k] - before[k]);
-                let square = x * x + y * y + turn * turn;
-                size += square;
-                fastest = f64::max(fastest, square * root.x * root.x);
-            }
+            let [size, fastest] = change([&*velocities, &*before], roots);
             // If each sweep changes them by a share of the one before, this much is still to come.
             let share = (size / last).sqrt();
             let to_come = 1.0 / (1.0 - share.min(SLOWEST));

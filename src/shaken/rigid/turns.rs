@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 
 use super::pivot::by_pivots;
-use super::point::SolverPoint;
+use super::point::{SolverPoint, change};
 use super::rest::{Four, RestPoint};
 
 /// Pivots and friction on the table take turns this often at most.
@@ -52,8 +52,8 @@ impl Turns<'_> {
                 return None;
             }
             let each = self.rests.iter().zip(&before);
-            let change = each.map(|(it, before)| [0, 1].map(|k| it.impulse[k] - before[k]));
-            let changes: Vec<[f64; 2]> = change.collect();
+            let each = each.map(|(it, before)| [0, 1].map(|k| it.impulse[k] - before[k]));
+            let changes: Vec<[f64; 2]> = each.collect();
             let squares = changes.iter().flatten().map(|it| it * it);
             let size = squares.sum::<f64>().sqrt();
             // Each turn changes by a share of the one before: from time to time by all that is to come (Aitken).
@@ -77,12 +77,8 @@ impl Turns<'_> {
             for rest in &mut *self.rests {
                 rest.solve(self.velocities);
             }
-            let each = self.velocities.iter().zip(&*self.before).zip(self.roots);
-            let change = each.map(|((now, before), root)| {
-                let [x, y, turn] = [0, 1, 2].map(|k| now[k] - before[k]);
-                (x * x + y * y + turn * turn) * root.x * root.x
-            });
-            if change.fold(0.0, f64::max) < (RUBBED * self.error).powi(2) {
+            let [_, fastest] = change([&*self.velocities, &*self.before], self.roots);
+            if fastest < (RUBBED * self.error).powi(2) {
                 return;
             }
         }

@@ -131,7 +131,6 @@ fn slides_of_any_size_keep_energy_in_each_step() {
     };
     for slid in [3e-4, 8e-4, 3e-3, 1e-2] {
         let [whole, half] = [1.0, 0.5].map(|share| missing(slid, share));
-        println!("{slid} {whole} {half}");
         assert!(whole < 0.01, "{slid} {whole}");
         assert!(half < 0.3 * whole, "{slid} {whole} {half}");
     }

@@ -246,9 +246,7 @@ impl Facing<'_> {
             let mut columns = [[0.0; WIDTH]; 3];
             for lane in 0..WIDTH {
                 // What is left over repeats the last pair.
-                let Placed {
-                    way, at: [i, j], ..
-                } = some[lane.min(some.len() - 1)];
+                let Placed { way, at: [i, j] } = some[lane.min(some.len() - 1)];
                 columns[0][lane] = way.re;
                 columns[1][lane] = way.im;
                 columns[2][lane] = moving.moment[j] * fixed.moment[i];

@@ -19,18 +19,17 @@ const OMITTED: f64 = 0.05;
 impl Pair<'_> {
     /// Adds the tightest form of a pair with these bounds of its series; returns what is left.
     pub(super) fn apart(&self, bounds: &OfSeries, out: &mut Sum) -> Left {
-        let is_far = self.single.is_far;
         let spare = SPARE / self.count * out.left.spread;
-        let order = (1..3).find(|order| bounds.remainder(*order) <= spare);
-        let order = order.unwrap_or(3);
-        let remainder = bounds.remainder(order);
-        let unknown = bounds.unknown();
-        let enough = (UNKNOWN * remainder).max(TOUCHING * self.touching());
-        let is_known = is_far || unknown.spread <= enough;
-        let rest = match is_known && !is_far {
-            true => unknown,
-            false => Left::default(),
+        let forms = (1..3).map(|order| (order, bounds.remainder(order)));
+        let enough = forms.clone().find(|(_, left)| *left <= spare);
+        let (order, remainder) = enough.unwrap_or_else(|| (3, bounds.remainder(3)));
+        let unknown = match self.single.is_far {
+            true => Left::default(),
+            false => bounds.unknown(),
         };
+        let enough = (UNKNOWN * remainder).max(TOUCHING * self.touching());
+        let is_known = unknown.spread <= enough;
+        let rest = if is_known { unknown } else { Left::default() };
         let near = self.distance() - self.centre_reach();
         let error = match is_known {
             true => self.strength * SERIES / (near * near * near),

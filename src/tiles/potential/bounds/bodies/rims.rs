@@ -140,9 +140,9 @@ impl Task for Arcs<'_> {
                 true => l.splat(1.0),
                 false => l.load(&ARC[2][k..]),
             };
-            let own = l.div(root, l.mul(near, far));
-            third = l.add(third, own);
-            fourth = l.add(fourth, l.div(l.add(own, own), near));
+            let each = l.div(root, l.mul(near, far));
+            third = l.add(third, each);
+            fourth = l.add(fourth, l.div(l.add(each, each), near));
         }
         // Both halves of the rim are alike.
         let scale = 4.0 * half_arc * 2.0 * PI * one;

@@ -112,13 +112,11 @@ impl OfSeries<'_> {
     /// How many terms a form must have that leaves no more than this (J) of the others, if there are as many, and
     /// what it leaves of them.
     pub fn terms(&self, most: f64) -> (usize, f64) {
-        let omitted = |sums| self.scale * of_motion(sums, self.motion) / 2.0;
-        let all = self.sums.omitted.iter().map(omitted).enumerate();
-        let mut all = all.map(|(k, left)| (k + 1, left));
-        let last = all.clone().next_back();
-        all.find(|(_, left)| *left <= most)
-            .or(last)
-            .unwrap_or_default()
+        let omitted = |sums: &Derivative<3>| self.scale * of_motion(sums, self.motion) / 2.0;
+        let few = &self.sums.omitted[..MOST_TERMS - 1];
+        let enough = few.iter().position(|sums| omitted(sums) <= most);
+        let last = enough.unwrap_or(MOST_TERMS - 1);
+        (last + 1, omitted(&self.sums.omitted[last]))
     }
 
     /// What the terms that are never summed add.
