@@ -72,11 +72,14 @@ fn results_of_other_magnets_and_rules_are_confirmed_as_far_as_they_go() {
     let here = folder.path();
     fs::write(here.join("discs.toml"), tab_with(DISC, "0.002")).expect("a design");
     fs::write(here.join("upright.toml"), tab_with(UPRIGHT, "0.002")).expect("a design");
+    let shielded = tab_with(UPRIGHT, "0.002") + SHIELD;
+    fs::write(here.join("shielded.toml"), shielded).expect("a design");
     for (design, has_bounds) in [
         ("shapes/upright-discs.toml", true),
         ("shapes/shielded-nearest-face.toml", false),
         ("discs.toml", true),
         ("upright.toml", true),
+        ("shielded.toml", true),
     ] {
         is_confirmed(here, design, has_bounds);
     }
@@ -95,6 +98,7 @@ fn results_of_magnets_that_touch_are_confirmed() {
 }
 
 const DISC: &str = "shape = \"disc\"\ndiameter = 0.01\nheight = 0.003";
+const SHIELD: &str = "\n[shield]\nattenuation = 0.8\nlength = 0.02\nwidth = 0.3\n";
 const UPRIGHT: &str = "axis = \"up\"\nsize = [0.004, 0.010, 0.003]";
 
 /// The shipped tab with other magnets, at an inset (m).

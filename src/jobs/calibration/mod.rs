@@ -132,7 +132,6 @@ impl ForcesRequest {
                 design, &rows,
             )?)));
         }
-        check_magnets(design)?;
         let (specimen, settings) = Specimen::of(design, self.hold_out);
         let found = calibrate(&specimen, &rows, &settings)?;
         Ok(Fitted::Shields(Box::new(found)))
@@ -174,21 +173,6 @@ impl PairsRequest {
             interval: [least, most],
         }))
     }
-}
-
-/// Checks that shields behind the design's magnets can be computed.
-///
-/// # Errors
-/// The first magnet for which they cannot.
-pub fn check_magnets(design: &Design) -> Result<(), DesignError> {
-    let fault = design.unshieldable.clone();
-    fault.map_or(Ok(()), |fault| {
-        let help = format!(
-            "{}; kT can be calibrated with any magnets (--bonds)",
-            fault.help
-        );
-        Err(DesignError { help, ..fault })
-    })
 }
 
 /// The quantities that can be measured at a pose, and their units.

@@ -95,7 +95,7 @@ use crate::checksum::sha256;
 use crate::text::{decode, is_invisible};
 use build::BuiltTile;
 use drawings::Drawings;
-use error::{Result, Span};
+use error::Result;
 use face::FaceContent;
 use faults::Faults;
 use magnet::{MAGNET_KEYS, MagnetKeys};
@@ -104,11 +104,9 @@ use physics::potential::Interaction;
 use physics::potential::shielding::{ShieldRule, Shields};
 use physics::problem::Problem;
 use physics::tile::congruence::congruence;
-use physics::tile::magnet::Form;
 use physics::tile::strength::Strength;
 use physics::tile::{Magnet, Pair};
 use reader::Section;
-use shield::ShieldKeys;
 use source::Source;
 use target::Bound;
 use tile::{ONE_TILE, TILES, TileEntry};
@@ -145,9 +143,6 @@ pub struct Design {
     pub pitch: Option<f64>,
     /// The kinds of magnets specified by a shop's grade or pull, each with its size (m).
     pub sold: Vec<(Strength, Magnet)>,
-    /// Why shields behind its magnets cannot be computed, at the first magnet without a model for
-    /// that; `None` if they can.
-    pub unshieldable: Option<DesignError>,
     /// The drawings that the design refers to.
     pub drawings: Vec<Drawing>,
     /// Non-fatal warnings, such as a magnet whose corners break through a curved surface.
@@ -261,12 +256,6 @@ impl Design {
         let (bound, too_near) = bound(&target, &entries, &contents, &mut built)?;
         let mut warnings = overlap::check_magnets(&entries, &built)?;
         let (shields, doubt) = shields?;
-        let unshieldable = unshieldable(&root, &built);
-        if let Some(fault) = unshieldable.as_ref().filter(|_| !shields.is_none()) {
-            let span = shield_span(&root, &entries)?;
-            let help = "remove `shield`, or describe the magnets as blocks";
-            return Err(source.error(span, &fault.message, help));
-        }
         warnings.extend(doubt);
         warnings.extend(doubts::find(&root, &entries, &contents, table));
         warnings.extend(doubts::masses(&entries, &built));
@@ -299,7 +288,6 @@ impl Design {
             },
             pitch: keys.pitch,
             sold,
-            unshieldable,
             drawings: Vec::new(),
             warnings,
         };
@@ -486,39 +474,6 @@ fn shields(root: &Section, entries: &[TileEntry; 2]) -> Result<(Shields, Option<
     shields.fixed = entries[0].shields(keys)?;
     shields.moving = entries[1].shields(keys)?;
     Ok((shields, None))
-}
-
-/// The fault of shields behind the first magnet for which there is no model of them; at the key that
-/// describes the magnets, if it is that of all.
-fn unshieldable(root: &Section, built: &[BuiltTile; 2]) -> Option<DesignError> {
-    let placed = |built: &BuiltTile| {
-        let mut magnets = built.tile.magnets.iter().zip(&built.placings);
-        let other = magnets.find(|(magnet, _)| magnet.form != Form::default());
-        other.map(|(_, placing)| placing.span)
-    };
-    let span = built.iter().find_map(placed)?;
-    let section = root.section("magnet", "[magnet]").ok().flatten();
-    let key = section.and_then(|section| ["shape", "axis"].iter().find_map(|key| section.get(key)));
-    Some(root.source.doubt(
-        key.map_or(span, |entry| entry.key_span),
-        "shields work only behind blocks magnetised in the plane, not behind discs or upright \
-         magnets",
-        "describe the magnets as blocks",
-    ))
-}
-
-/// The place where the file first describes a shield.
-fn shield_span(root: &Section, entries: &[TileEntry; 2]) -> Result<Span> {
-    if let Some(section) = root.get("shield") {
-        return Ok(section.key_span);
-    }
-    for entry in entries {
-        let mut keys = entry.shield_keys(ShieldKeys::default())?.into_iter();
-        if let Some(span) = keys.find_map(|keys| keys.span()) {
-            return Ok(span);
-        }
-    }
-    Ok(root.span)
 }
 
 /// The entries of the fixed and of the moving tile; both are those of `[tile]` if there is one, and

@@ -73,13 +73,6 @@ impl ShieldKeys {
         }))
     }
 
-    /// Where the file states that there is a shield.
-    pub fn span(&self) -> Option<Span> {
-        self.present
-            .filter(|(is_there, _)| *is_there)
-            .map(|it| it.1)
-    }
-
     /// A warning if the file describes shields that its rule does not use.
     pub fn doubt(&self, section: &Section) -> Option<DesignError> {
         let (_, span) = self.present?;

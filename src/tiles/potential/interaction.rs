@@ -26,7 +26,7 @@
 use std::sync::LazyLock;
 
 use super::bounds::{
-    BoxedBounds, CuboidBounds, DipoleBounds, MixedBounds, ShieldedBlockBounds, ShieldedBounds,
+    BoxedBounds, CuboidBounds, DipoleBounds, MixedBounds, ShieldedBounds, ShieldedPairBounds,
 };
 use super::shielding::{ShieldRule, Shields};
 use super::{
@@ -52,10 +52,9 @@ pub struct Interaction {
     Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
 )]
 pub enum Unbounded {
-    /// Discs and upright magnets that stick out of their tiles or are behind shields.
+    /// Discs and upright magnets that stick out of their tiles.
     #[error(
-        "bounds over cells are not available for discs and upright magnets that stick out of their tiles or \
-         have shields"
+        "bounds over cells are not available for discs and upright magnets that stick out of their tiles"
     )]
     Bodies,
     /// The nearest-face rule, see [`super::shielding`].
@@ -91,8 +90,11 @@ impl Interaction {
         match model {
             _ if shields.rule == ShieldRule::NearestFace => Err(Unbounded::NearestFace),
             _ if model.is_of_bodies(first) || model.is_of_bodies(second) => {
-                match shields.is_none() && MixedBounds::exist(*model, [fixed, moving]) {
-                    true => Ok(|model, a, b, _| Box::new(MixedBounds::new(model, a, b))),
+                match MixedBounds::exist(*model, [fixed, moving]) {
+                    true if shields.is_none() => {
+                        Ok(|model, a, b, _| Box::new(MixedBounds::new(model, a, b)))
+                    }
+                    true => Ok(of_shielded_pairs),
                     false => Err(Unbounded::Bodies),
                 }
             }
@@ -105,9 +107,7 @@ impl Interaction {
             MagnetModel::Cuboid if shields.is_none() => {
                 Ok(|_, a, b, _| Box::new(CuboidBounds::new(a, b)))
             }
-            MagnetModel::Cuboid => {
-                Ok(|_, a, b, shields| Box::new(ShieldedBlockBounds::new(a, b, shields)))
-            }
+            MagnetModel::Cuboid => Ok(of_shielded_pairs),
         }
     }
 
@@ -136,9 +136,18 @@ impl Interaction {
         let is_of_bodies = model.is_of_bodies(first) || model.is_of_bodies(second);
         // Among many blocks most pairs are far apart, and their series are faster together.
         let is_of_blocks = model == MagnetModel::Cuboid && first.len() * second.len() <= FEW_PAIRS;
-        match (is_of_bodies || is_of_blocks) && self.shields.is_none() {
-            true => Box::new(BodyPotential::within(error, model, first, second)),
-            false => self.between(fixed, moving).potential,
+        match self.shields.is_none() {
+            true if is_of_bodies || is_of_blocks => {
+                Box::new(BodyPotential::within(error, model, first, second))
+            }
+            false if is_of_bodies => Box::new(ShieldedPotential::within(
+                error,
+                model,
+                fixed,
+                moving,
+                &self.shields,
+            )),
+            _ => self.between(fixed, moving).potential,
         }
     }
 
@@ -149,6 +158,10 @@ impl Interaction {
         let is_of_bodies = tiles.iter().any(|tile| model.is_of_bodies(&tile.magnets));
         self.model == model && self.shields.is_none() && !is_of_bodies
     }
+}
+
+fn of_shielded_pairs(model: MagnetModel, a: &Tile, b: &Tile, shields: &Shields) -> BoxedBounds {
+    Box::new(ShieldedPairBounds::new(model, a, b, shields))
 }
 
 /// What the energy of two magnets costs, in units of work (see [`crate::budget`]).

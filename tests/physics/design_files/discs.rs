@@ -116,7 +116,6 @@ fn a_mate_of_standing_magnets_binds() {
 
 #[test]
 fn what_is_wrong_with_a_disc_is_told() {
-    let up = format!("{DISC}\naxis = \"up\"");
     for (magnet, code, expected) in [
         (
             "shape = \"disc\"\nsize = [0.01, 0.01, 0.005]",
@@ -147,13 +146,30 @@ fn what_is_wrong_with_a_disc_is_told() {
         };
         assert!(told.contains(expected), "{magnet}: {told}");
     }
+}
+
+#[test]
+fn shields_stand_behind_any_magnets() {
     let shield = "[shield]\nattenuation = 0.5\nlength = 0.03\nwidth = 0.3\n";
-    let shielded = text(&up, ["U", "U"]) + shield;
-    let told = Design::parse(&shielded, "disc.toml")
-        .unwrap_err()
-        .to_string();
-    assert!(
-        told.contains("not behind discs") && told.contains("| [shield]"),
-        "{told}"
-    );
+    let up = format!("{DISC}\naxis = \"up\"");
+    for (magnet, codes) in [(&*up, ["UUUD", "UDDD"]), (DISC, ["NNNS", "NSSS"])] {
+        let parse = |text: &str| Design::parse(text, "disc.toml").unwrap();
+        let [bare, shielded] = ["", shield].map(|end| parse(&(text(magnet, codes) + end)));
+        assert!(
+            shielded
+                .interaction
+                .shields
+                .fixed
+                .iter()
+                .all(Option::is_some)
+        );
+        // Both magnets of the bond are in front of their shields; the fronts' neighbours are aside.
+        let [full, left] = [&bare, &shielded].map(|it| {
+            let bond = it.pair.bound;
+            it.problem().energy(&bond)
+        });
+        assert!(full < left && left < 0.8 * full, "{full} {left}");
+        let tiles = [&shielded.pair.fixed, &shielded.pair.moving];
+        assert!(shielded.interaction.bounds(tiles[0], tiles[1]).is_ok());
+    }
 }

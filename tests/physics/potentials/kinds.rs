@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::potential::bounds::{
-    CuboidBounds, DipoleBounds, MixedBounds, ShieldedBlockBounds, ShieldedBounds,
+    CuboidBounds, DipoleBounds, MixedBounds, ShieldedBounds, ShieldedPairBounds,
 };
 use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
 use tilebind::potential::simd::Level;
@@ -105,6 +105,8 @@ pub fn all() -> Vec<Kind> {
     for model in [MagnetModel::Dipole, MagnetModel::Cuboid] {
         all.push(shielded(model, ShieldRule::Smooth));
         all.push(shielded(model, ShieldRule::NearestFace));
+        all.push(shielded_bodies(model, ShieldRule::Smooth));
+        all.push(shielded_bodies(model, ShieldRule::NearestFace));
     }
     all.extend((0..6).map(odd_shields));
     all.push(attraction());
@@ -124,14 +126,17 @@ pub fn blocks([a, b]: [&Tile; 2], _: &Shields, level: Level) -> Box<dyn Potentia
     Box::new(CuboidPotential::with_level(&a.magnets, &b.magnets, level))
 }
 
-pub fn shielded_dipoles([a, b]: [&Tile; 2], s: &Shields, level: Level) -> Box<dyn Potential> {
-    let model = MagnetModel::Dipole;
-    Box::new(ShieldedPotential::with_level(model, a, b, s, level))
-}
-
-pub fn shielded_blocks([a, b]: [&Tile; 2], s: &Shields, level: Level) -> Box<dyn Potential> {
-    let model = MagnetModel::Cuboid;
-    Box::new(ShieldedPotential::with_level(model, a, b, s, level))
+pub fn shielded_of(model: MagnetModel) -> Make<dyn Potential> {
+    match model {
+        MagnetModel::Dipole => |[a, b], s, level| {
+            let model = MagnetModel::Dipole;
+            Box::new(ShieldedPotential::with_level(model, a, b, s, level))
+        },
+        MagnetModel::Cuboid => |[a, b], s, level| {
+            let model = MagnetModel::Cuboid;
+            Box::new(ShieldedPotential::with_level(model, a, b, s, level))
+        },
+    }
 }
 
 pub fn dipole_bounds([a, b]: [&Tile; 2], _: &Shields, level: Level) -> Box<dyn CellBounds> {
@@ -146,8 +151,18 @@ pub fn shielded_bounds([a, b]: [&Tile; 2], s: &Shields, level: Level) -> Box<dyn
     Box::new(ShieldedBounds::with_level(a, b, s, level))
 }
 
-pub fn shielded_block_bounds([a, b]: [&Tile; 2], s: &Shields, level: Level) -> Box<dyn CellBounds> {
-    Box::new(ShieldedBlockBounds::with_level(a, b, s, level))
+/// Of any magnets, pair by pair.
+pub fn shielded_pair_bounds(model: MagnetModel) -> Make<dyn CellBounds> {
+    match model {
+        MagnetModel::Dipole => |[a, b], s, level| {
+            let model = MagnetModel::Dipole;
+            Box::new(ShieldedPairBounds::with_level(model, a, b, s, level))
+        },
+        MagnetModel::Cuboid => |[a, b], s, level| {
+            let model = MagnetModel::Cuboid;
+            Box::new(ShieldedPairBounds::with_level(model, a, b, s, level))
+        },
+    }
 }
 
 pub fn bodies_of(model: MagnetModel) -> Make<dyn Potential> {
@@ -351,25 +366,30 @@ pub fn odd_blocks() -> Kind {
     }
 }
 
-/// Lying and standing discs and blocks in either tile, from touching to far away.
-fn bodies(model: MagnetModel) -> Kind {
+/// A magnet of 1.2 T of one of four forms: lying and standing, discs and blocks.
+fn of_form(number: usize, like: Magnet) -> Magnet {
     let standing = |stands, shape| Form { shape, stands };
     let [up, down] = [Some(Standing::Up), Some(Standing::Down)];
-    let forms = [
+    let (form, size) = [
         (standing(None, Shape::Disc), [0.006, 0.010, 0.010]),
         (standing(up, Shape::Disc), [0.008, 0.008, 0.004]),
         (standing(down, Shape::Block), [0.006, 0.009, 0.005]),
         (standing(None, Shape::Block), [0.010, 0.012, 0.003]),
-    ];
+    ][number % 4];
+    Magnet {
+        form,
+        size,
+        moment: 1.2 * form.shape.volume(size) / MU0,
+        ..like
+    }
+}
+
+/// Lying and standing discs and blocks in either tile, from touching to far away.
+fn bodies(model: MagnetModel) -> Kind {
     let tile = |places: [[f64; 3]; 4], shift: usize| {
-        let magnets = places.iter().enumerate().map(|(k, [x, y, angle])| {
-            let (form, size) = forms[(k + shift) % 4];
-            Magnet {
-                form,
-                moment: 1.2 * form.shape.volume(size) / MU0,
-                ..magnet(*x, *y, *angle, size)
-            }
-        });
+        let magnets = places.iter().enumerate();
+        let magnets =
+            magnets.map(|(k, [x, y, angle])| of_form(k + shift, magnet(*x, *y, *angle, SIZE)));
         square(0.03, magnets.collect())
     };
     let fixed = [
@@ -449,15 +469,11 @@ pub fn shielded(model: MagnetModel, rule: ShieldRule) -> Kind {
         name: format!("{model:?}s by the rule {rule:?}"),
         tiles: [shielded_tile([1.0, -1.0]), shielded_tile([1.0, 1.0])],
         shields: shields(rule),
-        energy: if of_dipoles {
-            shielded_dipoles
-        } else {
-            shielded_blocks
-        },
+        energy: shielded_of(model),
         bounds: smooth.then_some(if of_dipoles {
             shielded_bounds as Make<dyn CellBounds>
         } else {
-            shielded_block_bounds
+            shielded_pair_bounds(model)
         }),
         anywhere: poses.clone(),
         poses,
@@ -472,6 +488,24 @@ pub fn shielded(model: MagnetModel, rule: ShieldRule) -> Kind {
             reached: [0.0, if of_dipoles && smooth { 0.02 } else { 0.0 }, 0.0],
             lost: 0.0,
         },
+    }
+}
+
+/// The same tiles with lying and standing discs and blocks.
+pub fn shielded_bodies(model: MagnetModel, rule: ShieldRule) -> Kind {
+    let usual = shielded(model, rule);
+    let mut tiles = usual.tiles;
+    for (shift, tile) in tiles.iter_mut().enumerate() {
+        let magnets = tile.magnets.iter().enumerate();
+        let of_forms = magnets.map(|(k, magnet)| of_form(k / 2 + k + shift, magnet.clone()));
+        tile.magnets = of_forms.collect();
+    }
+    Kind {
+        name: format!("magnets of all forms as {} by {rule:?}", model.name()),
+        tiles,
+        bounds: (rule == ShieldRule::Smooth).then(|| shielded_pair_bounds(model)),
+        exact: shielded(MagnetModel::Cuboid, rule).exact,
+        ..usual
     }
 }
 

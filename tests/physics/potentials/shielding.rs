@@ -9,16 +9,19 @@ use tilebind::potential::simd::Level;
 use tilebind::potential::{DipolePotential, MagnetModel, Potential};
 use tilebind::tile::{Magnet, Tile};
 
-use super::kinds::{Make, blocks, dipoles, shielded};
+use super::kinds::{Make, blocks, bodies_of, dipoles, shielded, shielded_bodies};
 
 #[test]
 fn without_shields_it_is_the_bare_model() {
     let level = Level::best();
-    for (model, bare) in [
-        (MagnetModel::Dipole, dipoles as Make<dyn Potential>),
-        (MagnetModel::Cuboid, blocks),
+    let smooth = ShieldRule::Smooth;
+    let [point, charged] = [MagnetModel::Dipole, MagnetModel::Cuboid];
+    for (kind, bare) in [
+        (shielded(point, smooth), dipoles as Make<dyn Potential>),
+        (shielded(charged, smooth), blocks),
+        (shielded_bodies(point, smooth), bodies_of(point)),
+        (shielded_bodies(charged, smooth), bodies_of(charged)),
     ] {
-        let kind = shielded(model, ShieldRule::Smooth);
         let potential = kind.energy_of(&kind.tiles, &Shields::default(), level);
         let bare = bare(kind.tiles.each_ref(), &kind.shields, level);
         for q in &kind.poses {

@@ -156,20 +156,6 @@ fn a_wrong_table_is_answered_with_file_line_and_mend() {
             "{told}"
         );
     }
-    let discs = folder.path().join("discs.toml");
-    let lines = bare();
-    let lines = lines
-        .lines()
-        .map(|line| match line.starts_with("size = [0.0") {
-            true => "shape = \"disc\"\ndiameter = 0.005\nheight = 0.003",
-            false => line,
-        });
-    std::fs::write(&discs, lines.collect::<Vec<_>>().join("\n")).unwrap();
-    let output = tilebind(&["calibrate", discs.to_str().unwrap(), file.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(2));
-    let told = stderr(&output);
-    let is_placed = told.contains("discs.toml:") && told.contains("| shape = \"disc\"");
-    assert!(is_placed && told.contains("not behind discs"), "{told}");
     let output = tilebind(&["calibrate", "tests/designs/good/flat.toml", "nowhere.csv"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("nowhere.csv"));

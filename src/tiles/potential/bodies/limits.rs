@@ -12,6 +12,9 @@
 //!   where `r >= D`, the integral of `1 / r^2` is at most that of the least of it and `1 / D^2` over
 //!   a disc of the same area, `pi + pi ln(P / (pi D^2))`, or `P / D^2` if that is less.
 //!
+//! * As `A <= l^2 / (4 pi)` for a face of area A, the energy of two faces is at most `P 2 sqrt(pi A) <= P l`. Of the
+//!   four pairs of faces two have either sign.
+//!
 //! An acceleration adds its product with the bound of the force. The second derivative is infinite
 //! (logarithmically) where rims of faces meet.
 
@@ -60,7 +63,17 @@ impl Limits {
         } else {
             PI * ratio
         };
+        self.densities * 2.0 * self.rim * spread + turn * self.slope()
+    }
+
+    /// The bound of the derivative along such a motion.
+    pub fn slope(&self) -> f64 {
         let force = 2.0 * PI * self.area + 2.0 * self.rim * (PI * self.area).sqrt();
-        self.densities * (2.0 * self.rim * spread + turn * force)
+        self.densities * force
+    }
+
+    /// The bound of the energy.
+    pub fn energy(&self) -> f64 {
+        0.5 * self.densities * self.area * self.rim
     }
 }

@@ -27,13 +27,14 @@
 //! 1e-9 of each pair's `mu0 m1 m2 / (4 pi r^3)` for the omitted terms. For upright point dipoles it is the
 //! first term of this series, at every distance.
 //!
-//! Bounds of derivatives are in `limits`; for those over whole cells see
+//! Bounds of derivatives are in `limits`, the energies and bounds of single pairs in `each`; for those over whole cells see
 //! [`bounds`](super::bounds), which has the pairs one by one from `single`, with second and third derivatives of discs that
 //! lie from `lying_discs`, and those of upright discs and
 //! dipoles, whose energy depends on their distance alone, from `radial`.
 
 mod complex;
 mod disc;
+mod each;
 mod edges;
 mod elliptic;
 mod face;
@@ -56,8 +57,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use nalgebra::{Vector2, Vector3};
 
-use super::far::FarForm;
 use super::far::group::Group;
+use super::far::{FarForm, PairEnergy};
 use super::kinds::number_of;
 use super::lever::Lever;
 use super::simd::Level;
@@ -65,9 +66,8 @@ use super::{MagnetModel, Potential, finite, motion};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::tile::magnet::{Form, Shape};
-use crate::units::MU0_OVER_4PI;
+use each::Apart;
 use limits::Limits;
-#[cfg(test)]
 pub(in crate::potential) use near::exact;
 use nearby::Nearby;
 pub(in crate::potential) use series::magnitudes_of;
@@ -79,6 +79,9 @@ use sum::Sum;
 /// The fraction of a pair's `mu0 m1 m2 / (4 pi r^3)` at which the series replaces the faces, and at
 /// which its terms are dropped one by one.
 const HAND_OVER: f64 = 1e-9;
+
+/// Sizes (m), shape, and whether a magnet stands.
+pub(in crate::potential) type BodyKind = ([f64; 3], Shape, bool);
 
 /// A magnet in the frame in use.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -136,9 +139,14 @@ impl Body {
         self.shape.volume(self.size)
     }
 
+    /// What it shares with others that differ in place, direction and moment.
+    pub(in crate::potential) fn kind(&self) -> BodyKind {
+        (self.size, self.shape, self.stands)
+    }
+
     /// Whether it differs from another one only in place, direction and moment.
     pub(in crate::potential) fn is_like(&self, other: &Self) -> bool {
-        (self.size, self.shape, self.stands) == (other.size, other.shape, other.stands)
+        self.kind() == other.kind()
     }
 }
 
@@ -215,13 +223,13 @@ impl Magnets {
         Self { bodies, groups }
     }
 
-    /// The places (m) and moments (A m^2) of a group.
+    /// The numbers, places (m) and moments (A m^2) of a group.
     fn places<'a>(
         &'a self,
         group: &'a Alike,
-    ) -> impl Iterator<Item = (Vector2<f64>, f64)> + Clone + 'a {
+    ) -> impl Iterator<Item = (usize, Vector2<f64>, f64)> + Clone + 'a {
         let members = group.members.members.iter().zip(&group.members.moment);
-        members.map(|(at, moment)| (self.bodies[*at].position, *moment))
+        members.map(|(at, moment)| (*at, self.bodies[*at].position, *moment))
     }
 }
 
@@ -238,6 +246,21 @@ impl Pairs {
             far,
             limits: (model == MagnetModel::Cuboid).then(|| Limits::new(first, second)),
         })
+    }
+
+    /// The energy of two magnets of these groups that are near each other.
+    fn near(&self, first: &Body, second: &Body) -> PairEnergy {
+        let Some(nearby) = &self.nearby else {
+            return exact(first, second);
+        };
+        let way = second.position - first.position;
+        let found = nearby.at(first.direction, way, second.direction);
+        let moments = first.moment * second.moment;
+        PairEnergy {
+            energy: moments * found.energy,
+            gradient: found.gradient * moments,
+            slope: moments * found.slope,
+        }
     }
 }
 
@@ -294,32 +317,6 @@ impl BodyPotential {
         let (energy, gradient) = Level::best().run(Sum::<SLOPE> { potential: self, q });
         finite(energy, gradient)
     }
-
-    /// The sum of a bound over all pairs: the arguments of `bound` are the greatest radius (m)
-    /// about either of their centres, their distance (m), the limits and `mu0 m1 m2 / (4 pi)` (J
-    /// m^3).
-    fn bounded(
-        &self,
-        q: &Configuration,
-        bound: impl Fn(f64, f64, &Option<Limits>, f64) -> f64,
-    ) -> f64 {
-        let rotation = q.rotation();
-        let mut sum = 0.0;
-        for ([first, second], pairs) in self.of_groups() {
-            let radii = match pairs.limits {
-                Some(_) => first.like.radius() + second.like.radius(),
-                None => 0.0,
-            };
-            for (place, m2) in self.moving.places(second) {
-                let place = rotation * place + q.position();
-                for (from, m1) in self.fixed.places(first) {
-                    let strength = MU0_OVER_4PI * (m1 * m2).abs();
-                    sum += bound(radii, (place - from).norm(), &pairs.limits, strength);
-                }
-            }
-        }
-        sum
-    }
 }
 
 impl Potential for BodyPotential {
@@ -336,28 +333,19 @@ impl Potential for BodyPotential {
     /// sixteenth of the reach, which holds for the average over a motion of that reach.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
         let turn = self.lever.turn();
-        self.bounded(q, |radii, distance, limits, strength| {
-            let apart = distance - radii - reach;
-            let far = motion::bound(&motion::second_derivative(turn), strength, apart);
-            match limits {
-                Some(limits) if apart <= 2.0 * radii => {
-                    far.min(strength * limits.curvature(turn, apart.max(reach / 16.0)))
-                }
-                _ => far,
-            }
-        })
+        let pairs = self.each_apart(q, reach);
+        pairs.fold(0.0, |sum, pair| sum + pair.curvature(turn, reach))
     }
 
     /// Known only if all magnets are farther apart than their own size.
     fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        let turn = self.lever.turn();
-        self.bounded(q, |radii, distance, _, strength| {
-            let apart = distance - radii - reach;
-            match apart > radii {
-                true => motion::bound(&motion::fourth_derivative(turn), strength, apart),
-                false => f64::INFINITY,
-            }
-        })
+        let fourth = motion::fourth_derivative(self.lever.turn());
+        let bound = |pair: Apart| match pair.distance > pair.radii {
+            true => motion::bound(&fourth, pair.strength, pair.distance),
+            false => f64::INFINITY,
+        };
+        let pairs = self.each_apart(q, reach);
+        pairs.fold(0.0, |sum, pair| sum + bound(pair))
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {

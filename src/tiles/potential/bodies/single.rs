@@ -85,7 +85,7 @@ impl Single<'_> {
     pub fn still(&self) -> PairEnergy {
         match self.is_far {
             true => self.series,
-            false => exact(&self.first, &self.second),
+            false => self.pairs.near(&self.first, &self.second),
         }
     }
 

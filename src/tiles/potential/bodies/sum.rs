@@ -2,7 +2,6 @@
 
 use nalgebra::{Complex, Vector3};
 
-use super::near::exact;
 use super::{Alike, Body, BodyPotential, Pairs};
 use crate::configuration::Configuration;
 use crate::potential::far::group::Group;
@@ -65,17 +64,12 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
         let arm = rotation * moving.bodies[second.members.members[j]].position;
         let way = arm + self.q.position() - fixed.bodies[first.members.members[i]].position;
         let direction = rotation * second.like.direction;
-        let found = match &pairs.nearby {
-            Some(nearby) => nearby.at(first.like.direction, way, direction),
-            None => {
-                let other = Body {
-                    position: way,
-                    direction,
-                    ..second.like
-                };
-                exact(&first.like, &other)
-            }
+        let other = Body {
+            position: way,
+            direction,
+            ..second.like
         };
+        let found = pairs.near(&first.like, &other);
         let moments = first.members.moment[i] * second.members.moment[j];
         let force = found.gradient * moments;
         *energy += moments * found.energy;

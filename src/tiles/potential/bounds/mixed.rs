@@ -1,10 +1,12 @@
 //! Bounds of the sum of the energies of magnets that lie flat and of those that stand upright (no magnet
 //! of one kind acts on one of the other), each pair by the bounds that are made for its kind.
 
-use super::bodies::depth;
+use super::bodies::{SeriesOfKinds, depth};
 use super::near::SLACK;
+use super::upright::RadialLaws;
 use super::{
     BodyBounds, BoxedBounds, CellBounds, CuboidBounds, DipoleBounds, Enclosure, UprightBounds,
+    one_by_one,
 };
 use crate::cell::Cell;
 use crate::configuration::Configuration;
@@ -17,6 +19,13 @@ use crate::tile::{Magnet, Tile};
 /// Cell bounds of the interaction energy of two tiles whose magnets lie or stand.
 pub struct MixedBounds {
     parts: Vec<BoxedBounds>,
+}
+
+/// What the bounds of pairs of the same kinds share.
+#[derive(Default)]
+struct Known {
+    laws: RadialLaws,
+    series: SeriesOfKinds,
 }
 
 /// Whether a magnet lies and is a block.
@@ -54,6 +63,10 @@ impl MixedBounds {
 
     /// Their bounds, if they [exist](Self::exist).
     pub fn new(model: MagnetModel, fixed: &Tile, moving: &Tile) -> Self {
+        Self::with(&mut Known::default(), model, fixed, moving)
+    }
+
+    fn with(known: &mut Known, model: MagnetModel, fixed: &Tile, moving: &Tile) -> Self {
         let both = |kind: &dyn Fn(&Magnet) -> bool| {
             let tiles = [fixed, moving].map(|tile| only(tile, kind));
             let none = tiles.iter().any(|tile| tile.magnets.is_empty());
@@ -69,15 +82,28 @@ impl MixedBounds {
             });
         }
         if let Some([a, b]) = both(&|it| !lies(it) && (is_dipole || it.is_round())) {
-            parts.push(Box::new(UprightBounds::new(model, &a, &b)));
+            parts.push(Box::new(UprightBounds::new(model, &a, &b, &mut known.laws)));
         }
         let bodies = |tile: &Tile| tile.magnets.iter().map(Body::from).collect::<Vec<_>>();
         let (first, second) = (bodies(fixed), bodies(moving));
         let is_left = |a: &Body, b: &Body| a.stands == b.stands && !is_usual(a, b);
         if !is_dipole && first.iter().any(|a| second.iter().any(|b| is_left(a, b))) {
-            parts.push(Box::new(BodyBounds::new(fixed, moving, is_usual)));
+            let bounds = BodyBounds::new(fixed, moving, is_usual, &mut known.series);
+            parts.push(Box::new(bounds));
         }
         Self { parts }
+    }
+
+    /// The bounds of every single pair of magnets, those of the first moving one first.
+    pub(super) fn of_pairs(model: MagnetModel, fixed: &Tile, moving: &Tile) -> Vec<Self> {
+        let [first, second] = [fixed, moving].map(one_by_one);
+        let pairs = second
+            .iter()
+            .flat_map(|b| first.iter().map(move |a| (a, b)));
+        let mut known = Known::default();
+        pairs
+            .map(|(a, b)| Self::with(&mut known, model, a, b))
+            .collect()
     }
 }
 

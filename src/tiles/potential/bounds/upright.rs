@@ -13,6 +13,8 @@
 //! the bounds L1, L2 and L3 of V's derivatives from the least distance in the cell on. Where the
 //! remainder is no less than the range of V itself, the pair counts as a constant within this range.
 
+use std::sync::Arc;
+
 use nalgebra::Vector2;
 
 use super::near::{depths, least_distance};
@@ -20,7 +22,7 @@ use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::MagnetModel;
 use crate::potential::bodies::radial::{Limits, Radial, Value};
-use crate::potential::kinds::number_of;
+use crate::potential::kinds::{Made, number_of};
 use crate::tile::{Magnet, Tile};
 
 /// The rounding of a sum over up to a few thousand pairs, relative to the sum of magnitudes.
@@ -30,13 +32,16 @@ const ROUNDING: f64 = 1e-12;
 const A_CELL: u64 = 100;
 const A_PAIR: u64 = 25;
 
+/// The laws of two sizes of magnets.
+pub(super) type RadialLaws = Made<[[f64; 3]; 2], Radial>;
+
 /// Cell bounds of the interaction energy of two tiles' upright magnets.
 #[derive(Clone, Debug)]
 pub struct UprightBounds {
     fixed: Vec<Standing>,
     moving: Vec<Standing>,
     /// By the kinds of the fixed and the moving magnet.
-    laws: Vec<Vec<Radial>>,
+    laws: Vec<Vec<Arc<Radial>>>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -52,16 +57,23 @@ struct Standing {
 
 impl UprightBounds {
     /// Bounds for the upright magnets of two tiles: discs, unless they are point dipoles.
-    pub fn new(model: MagnetModel, fixed: &Tile, moving: &Tile) -> Self {
+    pub(super) fn new(
+        model: MagnetModel,
+        fixed: &Tile,
+        moving: &Tile,
+        known: &mut RadialLaws,
+    ) -> Self {
         let ((fixed, first), (moving, second)) = (standing(fixed), standing(moving));
-        let laws = |one: &Magnet| {
-            let of = |other| Radial::new(model, one, other);
+        let mut laws = |one: &Magnet| {
+            let of = |other: &Magnet| {
+                known.of([one.size, other.size], || Radial::new(model, one, other))
+            };
             second.iter().map(of).collect()
         };
         Self {
             fixed,
             moving,
-            laws: first.iter().map(laws).collect(),
+            laws: first.iter().map(&mut laws).collect(),
         }
     }
 }

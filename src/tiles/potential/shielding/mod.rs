@@ -28,6 +28,7 @@
 //! exists for comparison with published results.
 
 pub(super) mod kernel;
+mod pairs;
 mod potential;
 
 pub use potential::ShieldedPotential;

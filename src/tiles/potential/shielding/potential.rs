@@ -2,22 +2,23 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::kernel::{self, Columns, PairColumns};
+use super::kernel::{self, Columns};
+use super::pairs::Bare;
 use super::{ShieldRule, Shields, nearest_faces};
 use crate::configuration::Configuration;
-use crate::potential::cuboid::block::Block;
-use crate::potential::cuboid::limits::{Limits, face_distances};
 use crate::potential::lever::Lever;
 use crate::potential::simd::Level;
-use crate::potential::{CuboidPotential, MagnetModel, Potential, finite};
-use crate::tile::Tile;
+use crate::potential::{BodyPotential, MagnetModel, Potential, finite};
+use crate::tile::{Magnet, Tile};
 
 /// The interaction energy of two tiles with shields: each pair's energy times its factor.
 #[derive(Clone, Debug)]
 pub struct ShieldedPotential {
     level: Level,
-    /// Magnets as blocks, if they are not dipoles.
-    blocks: Option<Blocks>,
+    /// Pairs without shields, if they are not dipoles that lie flat.
+    bare: Option<Bare>,
+    /// The same for each pair of faces, in the order of the fixed faces, for the nearest-face rule.
+    faces: Vec<Bare>,
     rule: ShieldRule,
     fixed: Vec<kernel::Magnet>,
     moving: Vec<kernel::Magnet>,
@@ -28,79 +29,8 @@ pub struct ShieldedPotential {
     lever: Lever,
 }
 
-/// Data of blocks besides their dipoles.
-#[derive(Clone, Debug)]
-struct Blocks {
-    potential: CuboidPotential,
-    fixed: Vec<Block>,
-    moving: Vec<Block>,
-    /// For each pair, in the order of the second magnets.
-    limits: Vec<Limits>,
-    /// For each pair of faces, in the order of the fixed faces: the bare blocks of the two.
-    faces: Vec<CuboidPotential>,
-}
-
-impl Blocks {
-    fn new(fixed: &Tile, moving: &Tile, level: Level) -> Self {
-        let blocks = |tile: &Tile| tile.magnets.iter().map(Block::from).collect::<Vec<_>>();
-        let (first, second) = (blocks(fixed), blocks(moving));
-        let limits = second
-            .iter()
-            .flat_map(|second| first.iter().map(|first| Limits::new(first, second)));
-        Self {
-            potential: CuboidPotential::with_level(&fixed.magnets, &moving.magnets, level),
-            limits: limits.collect(),
-            fixed: first,
-            moving: second,
-            faces: Vec::new(),
-        }
-    }
-
-    /// The same with the blocks of each pair of faces separately.
-    fn by_face(self, fixed: &Tile, moving: &Tile, level: Level) -> Self {
-        let on = |tile: &Tile, face: usize| -> Vec<_> {
-            let magnets = tile.magnets.iter().filter(|magnet| magnet.face == face);
-            magnets.cloned().collect()
-        };
-        let [first, second] = [fixed, moving].map(|tile| {
-            let faces = 0..tile.faces.len();
-            faces.map(|face| on(tile, face)).collect::<Vec<_>>()
-        });
-        let pairs = first
-            .iter()
-            .flat_map(|a| second.iter().map(move |b| (a, b)));
-        let faces = pairs.map(|(a, b)| CuboidPotential::with_level(a, b, level));
-        Self {
-            faces: faces.collect(),
-            ..self
-        }
-    }
-
-    /// Bounds of |u|, |u'| and |u''| of each pair (see [`Limits`]), in columns of the given stride.
-    fn limits(&self, q: &Configuration, turn: f64, reach: f64, stride: usize) -> [Vec<f64>; 3] {
-        let (sin, cos) = libm::sincos(q.theta);
-        let mut columns = [(); 3].map(|()| vec![0.0; self.moving.len() * stride]);
-        let mut limits = self.limits.iter();
-        for (j, second) in self.moving.iter().enumerate() {
-            let moved = second.moved(cos, sin, q.position());
-            for (i, (first, limits)) in self.fixed.iter().zip(limits.by_ref()).enumerate() {
-                let r = (moved.position - first.position).norm() - reach;
-                let distance = r - first.radius() - moved.radius();
-                let faces = face_distances(first, &moved).map(|d| (d - reach).max(reach / 16.0));
-                let bend = limits.curvature(turn, distance);
-                let row = [
-                    limits.energy(distance),
-                    limits.gradient(turn, distance),
-                    bend.min(limits.curvature_of_faces(turn, faces)),
-                ];
-                for (column, entry) in columns.iter_mut().zip(row) {
-                    column[j * stride + i] = entry;
-                }
-            }
-        }
-        columns
-    }
-}
+/// Makes the pairs of magnets without shields, unless they are dipoles that lie flat.
+type MakeBare<'a> = dyn Fn(&[Magnet], &[Magnet]) -> Option<Bare> + 'a;
 
 impl ShieldedPotential {
     /// The potential of two tiles with shields, for the fastest instruction set of this machine.
@@ -117,20 +47,44 @@ impl ShieldedPotential {
         shields: &Shields,
         level: Level,
     ) -> Self {
+        let is_of_bodies = [fixed, moving].map(|tile| model.is_of_bodies(&tile.magnets));
+        let bare = |a: &[Magnet], b: &[Magnet]| match model {
+            _ if is_of_bodies.contains(&true) => {
+                Some(Bare::Bodies(Box::new(BodyPotential::new(model, a, b))))
+            }
+            MagnetModel::Dipole => None,
+            MagnetModel::Cuboid => Some(Bare::blocks(a, b, level)),
+        };
+        Self::of(&bare, [fixed, moving], shields, level)
+    }
+
+    /// Of magnets that are not all blocks that lie flat, faster and with a larger error, see
+    /// [`BodyPotential::within`].
+    pub fn within(
+        error: f64,
+        model: MagnetModel,
+        fixed: &Tile,
+        moving: &Tile,
+        shields: &Shields,
+    ) -> Self {
+        let bare = |a: &[Magnet], b: &[Magnet]| {
+            let bodies = BodyPotential::within(error, model, a, b);
+            Some(Bare::Bodies(Box::new(bodies)))
+        };
+        Self::of(&bare, [fixed, moving], shields, Level::best())
+    }
+
+    fn of(bare: &MakeBare, [fixed, moving]: [&Tile; 2], shields: &Shields, level: Level) -> Self {
         let middles = |tile: &Tile| tile.faces.iter().map(|face| face.middle()).collect();
         let corners = moving.magnets.iter().flat_map(|magnet| magnet.corners());
-        let blocks = match model {
-            MagnetModel::Dipole => None,
-            MagnetModel::Cuboid => Some(Blocks::new(fixed, moving, level)),
-        };
-        let blocks = match shields.rule {
-            ShieldRule::NearestFace => blocks.map(|blocks| blocks.by_face(fixed, moving, level)),
-            ShieldRule::Smooth => blocks,
-        };
         let first = kernel::magnets(fixed, &[]);
         Self {
             level,
-            blocks,
+            bare: bare(&fixed.magnets, &moving.magnets),
+            faces: match shields.rule {
+                ShieldRule::NearestFace => by_face(bare, [fixed, moving]),
+                ShieldRule::Smooth => Vec::new(),
+            },
             rule: shields.rule,
             columns: Columns::new(&first),
             fixed: first,
@@ -169,18 +123,16 @@ impl ShieldedPotential {
                 q,
             )),
         };
-        if let (Some((i, j)), Some(blocks)) = (faces, &self.blocks) {
-            let bare = &blocks.faces[i * self.moving_middles.len() + j];
-            return if SLOPE {
-                bare.energy_and_gradient(q)
-            } else {
-                (bare.energy(q), Vector3::zeros())
+        let own = faces.and_then(|(i, j)| self.faces.get(i * self.moving_middles.len() + j));
+        if let Some(bare) = own {
+            let bare = bare.potential();
+            return match SLOPE {
+                true => bare.energy_and_gradient(q),
+                false => (bare.energy(q), Vector3::zeros()),
             };
         }
-        let pairs = self.blocks.as_ref().map(|blocks| {
-            let pairs = blocks.potential.pairs::<SLOPE>(q);
-            PairColumns::new(&pairs, self.fixed.len(), self.columns.len())
-        });
+        let bare = self.bare.as_ref();
+        let pairs = bare.map(|bare| bare.pairs::<SLOPE>(q, self.fixed.len(), self.columns.len()));
         let (energy, gradient) = self.level.run(kernel::Sum::<SLOPE> {
             fixed: &self.columns,
             moving: &self.moving,
@@ -210,10 +162,9 @@ impl Potential for ShieldedPotential {
     /// the nearest-face rule they hold only between the jumps.
     fn bend_bounds(&self, q: &Configuration, reach: f64) -> [f64; 2] {
         let (turn, stride) = (self.lever.turn(), self.columns.len());
-        let pairs = self
-            .blocks
-            .as_ref()
-            .map(|blocks| blocks.limits(q, turn, reach, stride));
+        let sizes = [self.moving.len() * stride, stride];
+        let bare = self.bare.as_ref();
+        let pairs = bare.map(|bare| bare.limits(q, [turn, reach], sizes));
         let [second, third] = self.level.run(kernel::Curvature {
             fixed: &self.columns,
             moving: &self.moving,
@@ -234,18 +185,32 @@ impl Potential for ShieldedPotential {
         self.lever.displacement(step)
     }
 
-    /// The feature length of bare blocks, because shields act over longer distances. Dipoles have
+    /// The feature length of bare magnets, because shields act over longer distances. Dipoles that lie flat have
     /// usable bounds.
     fn feature_length(&self) -> f64 {
-        self.blocks
-            .as_ref()
-            .map_or(0.0, |blocks| blocks.potential.feature_length())
+        let bare = self.bare.as_ref();
+        bare.map_or(0.0, |bare| bare.potential().feature_length())
     }
 
     /// The noise of the bare pairs.
     fn noise(&self) -> f64 {
-        self.blocks
-            .as_ref()
-            .map_or(1e-12, |blocks| blocks.potential.noise())
+        let bare = self.bare.as_ref();
+        bare.map_or(1e-12, |bare| bare.potential().noise())
     }
+}
+
+/// The pairs of magnets of each pair of faces, in the order of the fixed faces.
+fn by_face(bare: &MakeBare, tiles: [&Tile; 2]) -> Vec<Bare> {
+    let on = |tile: &Tile, face: usize| -> Vec<_> {
+        let magnets = tile.magnets.iter().filter(|magnet| magnet.face == face);
+        magnets.cloned().collect()
+    };
+    let [first, second] = tiles.map(|tile| {
+        let faces = 0..tile.faces.len();
+        faces.map(|face| on(tile, face)).collect::<Vec<_>>()
+    });
+    let pairs = first
+        .iter()
+        .flat_map(|a| second.iter().map(move |b| (a, b)));
+    pairs.filter_map(|(a, b)| bare(a, b)).collect()
 }

@@ -22,7 +22,7 @@ use tilebind::tile::magnet::{Form, Shape, Standing};
 use super::any_shields;
 use super::kinds::{
     Make, block_bounds, blocks, bodies_of, dipole_bounds, dipoles, mixed_bounds, paper_tile,
-    shielded_block_bounds, shielded_blocks, shielded_bounds, shielded_dipoles,
+    shielded_bounds, shielded_of, shielded_pair_bounds,
 };
 use crate::designs;
 
@@ -131,7 +131,7 @@ fn all() -> Vec<Enclosed> {
     let behind_shields = || Enclosed {
         name: "dipoles behind shields",
         tiles: [small.fixed.clone(), small.moving.clone()],
-        energy: shielded_dipoles,
+        energy: shielded_of(MagnetModel::Dipole),
         bounds: shielded_bounds,
         shielded: true,
         levels: Level::available(),
@@ -163,8 +163,8 @@ fn all() -> Vec<Enclosed> {
     };
     let blocks_behind_shields = Enclosed {
         name: "blocks behind shields",
-        energy: shielded_blocks,
-        bounds: shielded_block_bounds,
+        energy: shielded_of(MagnetModel::Cuboid),
+        bounds: shielded_pair_bounds(MagnetModel::Cuboid),
         levels: vec![Level::best()],
         cells: 300,
         met: [1_500, 300],
@@ -234,6 +234,19 @@ fn all() -> Vec<Enclosed> {
         )],
         ..standing("", MagnetModel::Cuboid, 0.001, false)
     };
+    let bodies_behind_shields = |name, model| Enclosed {
+        name,
+        energy: shielded_of(model),
+        bounds: shielded_pair_bounds(model),
+        shielded: true,
+        cells: 300,
+        met: [1_500, 0],
+        // As of blocks at contact.
+        off: [3e-6 * 0.03, 3e-6],
+        value: [0.0, 2e-7],
+        shrinking: Vec::new(),
+        ..bodies("", &EVERY_FORM, 0.001)
+    };
     let mut all = vec![
         standing("upright discs", MagnetModel::Cuboid, 0.001, false),
         Enclosed {
@@ -256,6 +269,8 @@ fn all() -> Vec<Enclosed> {
         of_blocks(paper(), Level::available(), 1200, 6_000),
         behind_shields(),
         blocks_behind_shields,
+        bodies_behind_shields("magnets of every form behind shields", MagnetModel::Cuboid),
+        bodies_behind_shields("the same as dipoles", MagnetModel::Dipole),
     ];
     all.extend((0..4).map(|_| {
         let tiles = [mixed_tile(&mut rng), mixed_tile(&mut rng)];

@@ -38,15 +38,17 @@ mod near;
 mod rims;
 mod series;
 
+use std::sync::Arc;
+
 use nalgebra::Vector2;
 
 use super::near::SLACK;
 use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
 use crate::configuration::Configuration;
-use crate::potential::bodies::{Body, Single};
+use crate::potential::bodies::{Body, BodyKind, Single};
 use crate::potential::cuboid::limits::segment_distance;
-use crate::potential::kinds::number_of;
+use crate::potential::kinds::{Made, number_of};
 use crate::potential::{BodyPotential, MagnetModel};
 use crate::scale::Scale;
 use crate::tile::{Magnet, Tile};
@@ -73,13 +75,16 @@ const A_TERM: u64 = 12;
 const A_NEAR_PAIR: u64 = 150;
 const AN_ENERGY: u64 = 800;
 
+/// The series of two kinds of magnets.
+pub(super) type SeriesOfKinds = Made<[BodyKind; 2], SeriesBounds>;
+
 /// Cell bounds of the interaction energy of two tiles' magnets of any form.
 pub struct BodyBounds {
     potential: BodyPotential,
     fixed: Vec<Enclosed>,
     moving: Vec<Enclosed>,
     /// By the kinds of the fixed and the moving magnet; `None` for pairs that others bound.
-    series: Vec<Vec<Option<SeriesBounds>>>,
+    series: Vec<Vec<Option<Arc<SeriesBounds>>>>,
     /// Pairs that others bound.
     skipped: fn(&Body, &Body) -> bool,
     /// How much (m) magnets may overlap in configurations that count as free.
@@ -148,12 +153,18 @@ fn enclosed(tile: &Tile) -> (Vec<Enclosed>, Vec<Body>) {
 impl BodyBounds {
     /// Bounds for the pairs of two tiles' magnets that both lie or both stand, but for those that are to be
     /// skipped.
-    pub fn new(fixed: &Tile, moving: &Tile, skipped: fn(&Body, &Body) -> bool) -> Self {
+    pub(super) fn new(
+        fixed: &Tile,
+        moving: &Tile,
+        skipped: fn(&Body, &Body) -> bool,
+        known: &mut SeriesOfKinds,
+    ) -> Self {
         let [(own, first), (others, second)] = [fixed, moving].map(enclosed);
-        let series = |one: &Body| {
+        let mut series = |one: &Body| {
             let of = |other: &Body| {
+                let kinds = [one, other].map(Body::kind);
                 (one.stands == other.stands && !skipped(one, other))
-                    .then(|| SeriesBounds::new(one, other))
+                    .then(|| known.of(kinds, || SeriesBounds::new(one, other)))
             };
             second.iter().map(of).collect()
         };
@@ -162,7 +173,7 @@ impl BodyBounds {
             potential: BodyPotential::new(MagnetModel::Cuboid, &fixed.magnets, &moving.magnets),
             fixed: own,
             moving: others,
-            series: first.iter().map(series).collect(),
+            series: first.iter().map(&mut series).collect(),
             skipped,
             slack: Scale::of(radii).length(SLACK),
         }
@@ -176,7 +187,7 @@ impl BodyBounds {
             strength: (single.first.moment * single.second.moment).abs() * MU0_OVER_4PI,
             arm: single.second.position - cell.centre.position(),
             depths: self.fixed[i].depth + self.moving[j].depth - self.slack,
-            series: self.series[self.fixed[i].kind][self.moving[j].kind].as_ref(),
+            series: self.series[self.fixed[i].kind][self.moving[j].kind].as_deref(),
             count: (self.fixed.len() * self.moving.len()) as f64,
             cell,
         };

@@ -50,7 +50,7 @@ const ROOM: f64 = 1.0 + 1e-9;
 
 /// The sums of two magnets at distances.
 #[derive(Clone, Debug)]
-pub(super) struct SeriesBounds {
+pub(in crate::potential::bounds) struct SeriesBounds {
     /// The [class](class_of) of the least distance.
     first: usize,
     /// At the shortest distance of each class.
@@ -155,7 +155,12 @@ impl SeriesBounds {
 
     /// For magnets whose centres stay a distance (m) apart, where the second one's moves and turns by at most this
     /// `motion` (m, rad), in units of `strength` (J m^3); `None` if that is too close.
-    pub fn at(&self, distance: f64, motion: [f64; 2], strength: f64) -> Option<OfSeries<'_>> {
+    pub(super) fn at(
+        &self,
+        distance: f64,
+        motion: [f64; 2],
+        strength: f64,
+    ) -> Option<OfSeries<'_>> {
         let class = class_of(distance.max(0.0)).checked_sub(self.first)?;
         Some(OfSeries {
             sums: &self.sums[class.min(self.sums.len() - 1)],

@@ -99,7 +99,7 @@ use nalgebra::Vector2;
 use super::apart::Apart;
 use super::dipole::{DipoleBounds, Spread};
 use super::near::SLACK;
-use super::{CellBounds, Enclosure};
+use super::{CellBounds, Enclosure, one_by_one};
 use crate::cell::{Cell, Quadratic};
 use crate::configuration::Configuration;
 use crate::potential::cuboid::block::Block;
@@ -175,12 +175,8 @@ impl CuboidBounds {
     /// The enclosure of every single pair of magnets, those of the first moving one first.
     pub(super) fn of_pairs(fixed: &Tile, moving: &Tile, level: Level) -> Vec<Self> {
         let [first, second] = [fixed, moving].map(|tile| {
-            let alone = |magnet: &Magnet| Tile {
-                magnets: vec![magnet.clone()],
-                ..tile.clone()
-            };
-            let tiles = tile.magnets.iter().map(alone);
-            tiles.zip(enclosed(tile, level)).collect::<Vec<_>>()
+            let each = one_by_one(tile).into_iter();
+            each.zip(enclosed(tile, level)).collect::<Vec<_>>()
         });
         let pairs = second
             .iter()

@@ -1,5 +1,5 @@
 //! Bounds over a cell of the energy of magnets behind smoothly acting shields: of point dipoles
-//! ([`ShieldedBounds`]) and of blocks ([`ShieldedBlockBounds`]).
+//! ([`ShieldedBounds`]) and of any other magnets ([`ShieldedPairBounds`]).
 //!
 //! Most pairs' factors have a second-order form with a bound of its remainder (see
 //! [`Factors`](crate::potential::shielding::kernel::Factors)). A factor that changes too fast for
@@ -7,11 +7,11 @@
 //! the distance and S with the cosine. As it is linear in both, it lies between its values at the
 //! corners of their ranges.
 
-mod blocks;
 mod dipoles;
+mod pairs;
 
-pub use blocks::ShieldedBlockBounds;
 pub use dipoles::ShieldedBounds;
+pub use pairs::ShieldedPairBounds;
 
 use nalgebra::{Rotation2, Vector2};
 

@@ -1,7 +1,7 @@
-//! Bounds of the energy of shielded blocks over a cell.
+//! Bounds of the energy of shielded magnets over a cell, of any form.
 //!
-//! Each pair's bare energy u has a form p with `u - p` within +-R, as in [`CuboidBounds`], and its
-//! factor w, which depends on the blocks' centres, a form f with `w - f` within +-E (see
+//! Each pair's bare energy u has a form p with `u - p` within +-R, as in [`CuboidBounds`] or [`MixedBounds`], and its
+//! factor w, which depends on the magnets' centres, a form f with `w - f` within +-E (see
 //! [`Factors`]). The product has the form `p f` without
 //! its terms of third and fourth order, and
 //!
@@ -21,7 +21,10 @@
 
 use super::Fronts;
 use crate::cell::Cell;
-use crate::potential::bounds::{CellBounds, CuboidBounds, Enclosure, Interval};
+use crate::potential::MagnetModel;
+use crate::potential::bounds::{
+    BoxedBounds, CellBounds, CuboidBounds, Enclosure, Interval, MixedBounds,
+};
 use crate::potential::shielding::Shields;
 use crate::potential::shielding::kernel::{FactorForm, Factors};
 use crate::potential::simd::Level;
@@ -30,33 +33,48 @@ use crate::tile::Tile;
 /// Rounding of a pair's product with the factor, as a fraction of the pair's greatest energy.
 const ROUNDING: f64 = 1e-12;
 
-/// Cell bounds of the interaction energy of two tiles' blocks behind shields that act smoothly.
-#[derive(Clone, Debug)]
-pub struct ShieldedBlockBounds {
+/// Cell bounds of the interaction energy of two tiles' magnets behind shields that act smoothly.
+pub struct ShieldedPairBounds {
     level: Level,
     fronts: Fronts,
-    /// The bare bounds of each pair, those of the first moving block first.
-    pairs: Vec<CuboidBounds>,
+    /// The bare bounds of each pair, those of the first moving magnet first.
+    pairs: Vec<BoxedBounds>,
 }
 
-impl ShieldedBlockBounds {
+impl ShieldedPairBounds {
     /// For shields that act by the smooth rule; `shields.rule` is ignored. Faces beyond the ends of
-    /// the lists of shields have none.
-    pub fn new(fixed: &Tile, moving: &Tile, shields: &Shields) -> Self {
-        Self::with_level(fixed, moving, shields, Level::best())
+    /// the lists of shields have none. Of magnets that are not all blocks that lie flat there are bounds if there are
+    /// [without shields](MixedBounds::exist).
+    pub fn new(model: MagnetModel, fixed: &Tile, moving: &Tile, shields: &Shields) -> Self {
+        Self::with_level(model, fixed, moving, shields, Level::best())
     }
 
     /// The same for the given instruction set.
-    pub fn with_level(fixed: &Tile, moving: &Tile, shields: &Shields, level: Level) -> Self {
+    pub fn with_level(
+        model: MagnetModel,
+        fixed: &Tile,
+        moving: &Tile,
+        shields: &Shields,
+        level: Level,
+    ) -> Self {
+        let are_bodies = [fixed, moving].map(|tile| model.is_of_bodies(&tile.magnets));
         Self {
             level,
             fronts: Fronts::new(fixed, moving, shields),
-            pairs: CuboidBounds::of_pairs(fixed, moving, level),
+            pairs: match are_bodies.contains(&true) || model == MagnetModel::Dipole {
+                true => boxed(MixedBounds::of_pairs(model, fixed, moving)),
+                false => boxed(CuboidBounds::of_pairs(fixed, moving, level)),
+            },
         }
     }
 }
 
-impl CellBounds for ShieldedBlockBounds {
+fn boxed<B: CellBounds + Send + 'static>(pairs: Vec<B>) -> Vec<BoxedBounds> {
+    let each = pairs.into_iter().map(|it| Box::new(it) as BoxedBounds);
+    each.collect()
+}
+
+impl CellBounds for ShieldedPairBounds {
     fn enclose(&self, cell: &Cell) -> Enclosure {
         let mut out = Enclosure::default();
         let rotation = cell.centre.rotation();
@@ -65,20 +83,21 @@ impl CellBounds for ShieldedBlockBounds {
         for (k, (bare, mut factor)) in self.pairs.iter().zip(factors).enumerate() {
             let (i, j) = (k % count, k / count);
             let mut pair = bare.enclose(cell);
-            if self.fronts.act(i, j) {
+            let work = bare.work_of(&pair);
+            if self.fronts.act(i, j) && pair.high.is_finite() {
                 if factor.left_out >= factor.size {
                     let (_, interval) = self.fronts.interval((cell, &rotation), i, j);
                     factor = of_interval(interval);
                 }
                 pair = product(&pair, &factor, &cell.half);
             }
-            out.add(&pair, pair.work);
+            out.add(&pair, work);
         }
         out
     }
 
     fn work(&self) -> u64 {
-        self.pairs.iter().map(CellBounds::work).sum()
+        self.pairs.iter().map(|pair| pair.work()).sum()
     }
 }
 
