@@ -33,6 +33,9 @@ pub const SHORTEST_TRIED: f64 = 1.0 / 4096.0;
 const KEPT: f64 = 0.9;
 /// They are undone to this share.
 const UNDONE: f64 = 0.8;
+/// A step of the table has ended if less than this share of it is left: what halved steps leave of it may be too
+/// short for the time to go on.
+const ENDED: f64 = 1e-12;
 /// The displacement by the error of the impulses in a step, relative to the rounding of gaps.
 pub(super) const PRECISE: f64 = 0.1;
 
@@ -133,7 +136,7 @@ impl<W: World> Island<'_, W> {
     fn go_on(&mut self, state: &mut State, masses: Masses) -> Result<(), Unsolved> {
         let duration = self.laws.step;
         self.begin(state, masses, duration)?;
-        while state.time < duration {
+        while state.time < duration * (1.0 - ENDED) {
             tiles::interruption::check();
             self.move_on(state, masses, duration)?;
         }

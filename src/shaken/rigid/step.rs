@@ -9,7 +9,7 @@ use super::island::{Island, Masses};
 use super::motion::{State, Unsolved, Way, put_right, put_right_held};
 use super::near::Touch;
 use super::rest::{GRAVITY, Rest};
-use super::short::Each;
+use super::short::{Each, Points};
 
 /// A step that ends in an overlap which was not foreseen, or by whose error contact gives energy, is repeated
 /// with half the time, this often at most.
@@ -78,13 +78,25 @@ impl<W: World> Island<'_, W> {
         }
         // The points that lasted, where they are now: not those that meet at the end of the step,
         // nor those that bounced within it.
+        let rates: Points<f64> = state
+            .holds
+            .iter()
+            .map(|hold| hold.rate(&state.velocities))
+            .collect();
         let lasts = |hold: &Hold| {
             let slow = self.slow(&next, hold);
-            let like = state.holds.iter().filter(|it| it.is_like(hold));
-            let same = like.min_by_key(|it| OrderedFloat(it.apart(hold)));
             // By its normal at the start: where tiles turn together, that at the end would show a bounce.
-            let bounced = same.is_some_and(|it| it.rate(&state.velocities) > slow);
-            held.iter().any(|it| it.is_like(hold)) && hold.rate(&way) >= -slow && !bounced
+            let bounced = || {
+                let all = state.holds.iter().zip(&rates);
+                let like = all.filter(|(it, _)| it.is_like(hold));
+                let same = || {
+                    like.clone()
+                        .min_by_key(|(it, _)| OrderedFloat(it.apart(hold)))
+                };
+                // The search for the same point is long where there are many.
+                rates.iter().any(|rate| *rate > slow) && same().is_some_and(|it| *it.1 > slow)
+            };
+            held.iter().any(|it| it.is_like(hold)) && hold.rate(&way) >= -slow && !bounced()
         };
         let mut holds: Vec<Hold> = next.holds.iter().filter(|it| lasts(it)).copied().collect();
         for hold in &mut holds {

@@ -145,6 +145,11 @@ impl Contact {
         for pair in corners {
             self.between_corners(pair, (rotation, position), margin, &mut found);
         }
+        // Lines of edges go on beyond what a large margin sees of the tiles.
+        let overlaps = |point: &ContactPoint| point.gap < -self.touch();
+        if found.iter().any(overlaps) && self.is_free(q) {
+            found.retain(|point| !overlaps(point));
+        }
         found
     }
 

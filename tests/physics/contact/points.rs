@@ -83,8 +83,10 @@ impl Tiles {
 
 #[test]
 fn the_nearest_point_is_as_far_as_the_tiles_are() {
-    let margin = 1e-3;
-    for shape in SHAPES {
+    let cases = SHAPES
+        .iter()
+        .flat_map(|shape| [1e-3, 5e-3, 0.012, 0.025].map(|it| (shape, it)));
+    for (shape, margin) in cases {
         let tiles = tiles(shape);
         let mut nonempty = 0;
         for q in tiles.near_contact(300) {
@@ -94,9 +96,9 @@ fn the_nearest_point_is_as_far_as_the_tiles_are() {
             // Never more; less only where an edge's line goes on beyond a notch, or past a corner.
             assert!(
                 least <= clearance.min(margin) + 1e-9,
-                "{shape} {q:?} {least} {clearance}"
+                "{shape} {margin} {q:?} {least} {clearance}"
             );
-            assert!(least > -1e-9, "{shape} {q:?} {least} {clearance}");
+            assert!(least > -1e-9, "{shape} {margin} {q:?} {least} {clearance}");
             nonempty += usize::from(!points.is_empty());
         }
         assert!(nonempty > 100, "{shape}: {nonempty}");
