@@ -1,47 +1,17 @@
 //! Advances all tiles step by step, and keeps the energy balance.
 
-use std::iter::Peekable;
-
-use nalgebra::{Vector2, Vector3};
-use petgraph::unionfind::UnionFind;
+use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 
 use super::crowd::Crowd;
 use super::drive::Drive;
 use super::neighbours::Neighbours;
+use super::scratch::{Scratch, ahead, refill};
 use super::settings::TableSettings;
-use crate::rigid::{
-    Account, Island, Laws, Margins, Mover, NearPair, Pose, Rider, SHORTEST_TRIED, Solver, Two,
-    Winds, Within, World, fastest, longest_step, on_the_table, relative, rim_room,
-};
-use tiles::configuration::Configuration;
-use tiles::parallel;
+use crate::rigid::{Account, Laws, Margins, Mover, NearPair, Pose, Rider, Solver, Two, Winds};
 
-/// Islands per task of a thread.
-const BATCH: usize = 8;
-/// Islands are shared among threads if they and their pairs are this many: with fewer, threads wait longer than
-/// they work.
-const WORTH_SHARING: usize = 512;
-/// Pairs apart per task of a thread.
-const APART_TOGETHER: usize = 512;
-/// Usual travel of a tile in a step, as a share of the distance that counts as near; faster tiles are
-/// near each other from farther on.
-const SHARE_OF_NEAR: f64 = 0.25;
 /// Largest travel, as a share of the same distance.
 const MOST_OF_NEAR: f64 = 2.0;
-/// Pairs are tied if their tiles may come this near in a step, as a share of the same distance.
-const SHARE_TIED: f64 = 0.1;
-/// The pull of two tiles that do not touch is computed anew after this many steps ...
-const MOST_STEPS: f64 = 16.0;
-/// ... or once they have moved by this share of the distance, of their circles or if they are near of their
-/// outlines, over which it changes ...
-const SHARE_OF_ROOM: f64 = 0.02;
-/// ... and which counts as this share of the circles' radii at least, or as half a magnet's side.
-const LEAST_ROOM: f64 = 0.1;
-/// The share is larger for pulls weaker than this many times what the cut-off leaves out, in inverse proportion ...
-const WEAK: f64 = 100.0;
-/// ... up to this factor: no such pull errs by more than a few times what is left out anyway.
-const MOST_WEAK: f64 = 10.0;
 
 /// Why a run cannot go on.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -68,12 +38,12 @@ pub enum StepError {
 
 /// A run in progress.
 pub struct Stepper<'a> {
-    crowd: &'a Crowd,
-    settings: &'a TableSettings,
+    pub(super) crowd: &'a Crowd,
+    pub(super) settings: &'a TableSettings,
     drive: Drive<'a>,
-    riders: Vec<Rider>,
+    pub(super) riders: Vec<Rider>,
     /// Mass (kg, kg) and moment of inertia (kg m^2) of each.
-    masses: Vec<Vector3<f64>>,
+    pub(super) masses: Vec<Vector3<f64>>,
     /// The random numbers of each tile.
     random: Vec<ChaCha8Rng>,
     /// Since the start (s).
@@ -83,55 +53,13 @@ pub struct Stepper<'a> {
     /// The number of steps that islands have made within those of the table.
     pub steps: u64,
     since_kick: usize,
-    neighbours: Neighbours,
-    near: Vec<NearPair>,
-    margins: Margins,
-    least_near: f64,
+    pub(super) neighbours: Neighbours,
+    pub(super) near: Vec<NearPair>,
+    pub(super) margins: Margins,
+    pub(super) least_near: f64,
     scratch: Scratch,
     /// Solvers of earlier islands, kept to save allocating what they hold.
-    solvers: Vec<Solver>,
-}
-
-/// Vectors that each step fills anew, kept to save allocating them.
-#[derive(Default)]
-struct Scratch {
-    /// The tiles before the step.
-    movers: Vec<Mover>,
-    poses: Vec<Pose>,
-    positions: Vec<Vector2<f64>>,
-    /// The tiles in the middle of the step, if nothing acted on them.
-    halfway: Vec<(Mover, Pose)>,
-    /// Their acceleration by the table's motion.
-    carried: Vector2<f64>,
-    /// The same, and by pairs apart.
-    steady: Vec<Vector3<f64>>,
-    apart: Vec<Apart>,
-    /// The near pairs of the step before.
-    known: Vec<NearPair>,
-    /// The pulls of pairs apart, in their order, and those of the step before.
-    lasting: Vec<Lasting>,
-    lasted: Vec<Lasting>,
-}
-
-/// A pair of tiles that do not touch within the step.
-struct Apart {
-    two: Two,
-    /// The pair's index if it is near.
-    near: Option<usize>,
-    /// By this distance (m) the pull changes little if the tiles move relative to each other.
-    room: f64,
-}
-
-/// The pull of two tiles apart for some steps, of the middle of their way in this time.
-#[derive(Clone, Copy)]
-struct Lasting {
-    two: Two,
-    /// In the frame of the first tile, in which it also turns with the two.
-    within: Within,
-    /// The pose of the second in this frame at the first of the steps.
-    at: Configuration,
-    /// The number of steps that it is for, with this one.
-    steps: usize,
+    pub(super) solvers: Vec<Solver>,
 }
 
 /// A tile became too fast for the step.
@@ -188,11 +116,11 @@ impl<'a> Stepper<'a> {
         stepper
     }
 
-    fn winds(&self) -> Winds<'a> {
+    pub(super) fn winds(&self) -> Winds<'a> {
         Winds(&self.settings.fans)
     }
 
-    fn laws(&self) -> Laws<'a> {
+    pub(super) fn laws(&self) -> Laws<'a> {
         let settings = self.settings;
         Laws {
             friction: settings.friction,
@@ -317,313 +245,4 @@ impl<'a> Stepper<'a> {
         self.sort_pairs(scratch);
         self.pull_apart(scratch);
     }
-
-    /// Finds the near pairs, and ties those that may touch.
-    fn sort_pairs(&mut self, scratch: &mut Scratch) {
-        let crowd = self.crowd;
-        let Scratch { movers, poses, .. } = scratch;
-        let positions = &mut scratch.positions;
-        refill(positions, poses.iter().map(|pose| pose.at.position()));
-        let speeds = movers.iter().map(|it| fastest(crowd, it, &it.velocity));
-        let travel = 2.0 * speeds.fold(0.0, f64::max) * self.settings.step;
-        let touching = crowd.couples().iter().map(|it| it.radii() + it.near);
-        let range = crowd.range().max(touching.fold(0.0, f64::max) + travel);
-        let pairs = self.neighbours.within(range, positions);
-        std::mem::swap(&mut self.near, &mut scratch.known);
-        let mut known = scratch.known.drain(..).peekable();
-        let apart = &mut scratch.apart;
-        apart.clear();
-        for &[i, j] in pairs {
-            let two = Two::of([i, j].map(|k| movers[k].kind), [i, j]);
-            let kept = next_of(&two, &mut known, |near| near.two);
-            let [first, second] = [two.first, two.second].map(|k| &movers[k]);
-            let couple = crowd.couple(first.kind, second.kind).0;
-            let distance = (positions[i] - positions[j]).norm();
-            let speed =
-                fastest(crowd, first, &first.velocity) + fastest(crowd, second, &second.velocity);
-            let travel = speed * self.settings.step;
-            let near = couple.near + travel.max(2.0 * SHARE_OF_NEAR * couple.near);
-            let room = match distance <= couple.radii() + near {
-                true => {
-                    let q = poses[two.first].to(&poses[two.second].at);
-                    couple.contact.clearance_bound(&q)
-                }
-                false => f64::INFINITY,
-            };
-            let is_near = room <= near;
-            let is_tied = is_near && { room <= travel + SHARE_TIED * couple.near };
-            if is_near {
-                let mut pair = kept.unwrap_or_else(|| NearPair::new(two));
-                pair.is_tied = is_tied;
-                self.near.push(pair);
-            }
-            if !is_tied && (is_near || distance <= couple.cutoff.to + near) {
-                let near = is_near.then(|| self.near.len() - 1);
-                // Of near tiles the pull changes over the distance of their outlines.
-                let room = match is_near {
-                    true => room.max(self.margins.feature),
-                    false => (distance - couple.radii()).max(LEAST_ROOM * couple.radii()),
-                };
-                let room = SHARE_OF_ROOM * room;
-                apart.push(Apart { two, near, room });
-            }
-        }
-    }
-
-    /// Adds the accelerations by pairs apart, given the tiles in the middle of the step, and ties those
-    /// whose forces are too strong for the step.
-    fn pull_apart(&mut self, scratch: &mut Scratch) {
-        let crowd = self.crowd;
-        let h = self.settings.step;
-        let Scratch {
-            apart,
-            halfway,
-            movers,
-            poses,
-            lasting,
-            lasted,
-            ..
-        } = scratch;
-        std::mem::swap(lasting, lasted);
-        lasting.clear();
-        let mut lasted = lasted.iter().peekable();
-        let mut new = Vec::new();
-        for Apart { two, room, .. } in apart.iter() {
-            let known = next_of(two, &mut lasted, |it| it.two);
-            let [first, second] = [two.first, two.second].map(|k| &movers[k]);
-            let kinds = [first.kind, second.kind];
-            let left_out = crowd.couple(kinds[0], kinds[1]).0.cutoff.left_out;
-            let strength = known.map_or(f64::INFINITY, |it| {
-                let (energy, force, torque) = it.within;
-                energy.abs() + force.norm() * (room / SHARE_OF_ROOM) + torque.abs()
-            });
-            let room = room * (WEAK * left_out / strength).clamp(1.0, MOST_WEAK);
-            let at = poses[two.first].to(&poses[two.second].at);
-            let moved = |from: &Configuration| {
-                let step = from.step_to(&at);
-                step.xy().norm() + crowd.contact(kinds).moving().circumradius() * step.z.abs()
-            };
-            let known = known.filter(|it| it.steps > 1 && moved(&it.at) <= room);
-            if let Some(known) = known {
-                lasting.push(Lasting {
-                    steps: known.steps - 1,
-                    ..*known
-                });
-                continue;
-            }
-            let speed = relative(
-                crowd,
-                [first, second],
-                [first, second].map(|it| it.velocity),
-            );
-            let steps = room / (speed * h).max(f64::MIN_POSITIVE);
-            new.push(lasting.len());
-            lasting.push(Lasting {
-                two: *two,
-                within: Default::default(),
-                at,
-                steps: steps.clamp(1.0, MOST_STEPS) as usize,
-            });
-        }
-        let parts: Vec<&[usize]> = new.chunks(APART_TOGETHER).collect();
-        let found = parallel::flat_map(&parts, |part| {
-            let pull_of = |k: &usize| {
-                let Lasting { two, steps, .. } = &lasting[*k];
-                let middle = |tile: usize| match steps {
-                    1 => halfway[tile],
-                    _ => ahead(crowd, &movers[tile], 0.5 * *steps as f64 * h),
-                };
-                let [(first, a), (second, b)] = [two.first, two.second].map(middle);
-                crowd.pull([first.kind, second.kind], &a.to(&b.at))
-            };
-            part.iter().map(pull_of).collect::<Vec<_>>()
-        });
-        for (k, within) in new.into_iter().zip(found) {
-            lasting[k].within = within;
-        }
-        for (Apart { two, near, .. }, Lasting { within, .. }) in apart.iter().zip(&*lasting) {
-            let [(first, a), (second, b)] = [two.first, two.second].map(|k| &halfway[k]);
-            let pulls = on_the_table(*within, [first, second], [a, b]).1;
-            let tiles = [two.first, two.second];
-            let own = [0, 1].map(|side| pulls[side].component_div(&self.masses[tiles[side]]));
-            if let Some(near) = near.map(|k| &mut self.near[k]) {
-                let each = [0, 1].map(|side| fastest(crowd, &halfway[tiles[side]].0, &own[side]));
-                let longest = longest_step(self.margins.feature, each[0] + each[1]);
-                near.is_tied = longest < self.margins.usual_step;
-                if near.is_tied {
-                    continue;
-                }
-            }
-            for (tile, own) in tiles.into_iter().zip(own) {
-                scratch.steady[tile] += own;
-            }
-        }
-    }
-
-    /// Advances every island independently.
-    fn move_all(&mut self, scratch: &Scratch) -> Result<(), StepError> {
-        let Scratch {
-            poses,
-            steady,
-            halfway,
-            ..
-        } = scratch;
-        let n = self.riders.len();
-        let margins = self.margins;
-        let mut tied = UnionFind::<usize>::new(n);
-        let mut is_tied = vec![false; n];
-        for near in self.near.iter().filter(|near| near.is_tied) {
-            tied.union(near.two.first, near.two.second);
-            is_tied[near.two.first] = true;
-            is_tied[near.two.second] = true;
-        }
-        let mut number = vec![usize::MAX; n];
-        let mut islands: Vec<Island<Crowd>> = Vec::new();
-        let laws = self.laws();
-        let mut members: Vec<Vec<usize>> = Vec::new();
-        let mut local = vec![0; n];
-        for k in 0..n {
-            if !is_tied[k] && self.is_alone(k, &halfway[k].0, &steady[k]) {
-                self.glide(k, &halfway[k].0, &steady[k]);
-                continue;
-            }
-            let top = tied.find_mut(k);
-            if number[top] == usize::MAX {
-                number[top] = islands.len();
-                members.push(Vec::new());
-                islands.push(Island {
-                    world: self.crowd,
-                    laws,
-                    time: self.time,
-                    margins: &margins,
-                    riders: Vec::new(),
-                    still: Vec::new(),
-                    poses: Vec::new(),
-                    steady: Vec::new(),
-                    pairs: Vec::new(),
-                    account: Account::default(),
-                    steps: 0,
-                    is_solved: true,
-                    solver: self.solvers.pop().unwrap_or_default(),
-                });
-            }
-            let island = number[top];
-            local[k] = members[island].len();
-            members[island].push(k);
-            islands[island].riders.push(self.riders[k]);
-            islands[island].poses.push(poses[k]);
-            islands[island].steady.push(steady[k]);
-        }
-        for near in self.near.iter_mut().filter(|near| near.is_tied) {
-            let top = tied.find_mut(near.two.first);
-            let two = Two {
-                first: local[near.two.first],
-                second: local[near.two.second],
-            };
-            islands[number[top]].pairs.push((two, near));
-        }
-        let work: usize = islands.iter().map(|it| 1 + it.pairs.len()).sum();
-        if work < WORTH_SHARING {
-            islands.iter_mut().for_each(Island::advance);
-        } else {
-            let mut parts: Vec<&mut [Island<Crowd>]> = islands.chunks_mut(BATCH).collect();
-            parallel::for_each(&mut parts, |part| part.iter_mut().for_each(Island::advance));
-        }
-        for (island, members) in islands.into_iter().zip(members) {
-            self.account.add(&island.account);
-            self.steps += island.steps;
-            if !island.is_solved {
-                return Err(StepError::Unsolved {
-                    time: self.time,
-                    tile: members[0],
-                    tiles: members.len(),
-                    step: self.settings.step * SHORTEST_TRIED,
-                });
-            }
-            self.solvers.push(island.solver);
-            for (rider, k) in island.riders.into_iter().zip(members) {
-                self.riders[k] = rider;
-            }
-        }
-        Ok(())
-    }
-
-    /// Whether a tile meets nothing in a step: neither the rim nor a fan that needs shorter steps, nor
-    /// friction on the table.
-    fn is_alone(&self, tile: usize, halfway: &Mover, steady: &Vector3<f64>) -> bool {
-        let speed = halfway.velocity.xy().norm();
-        let longest = self
-            .winds()
-            .longest(self.masses[tile].x, halfway.place.xy(), speed);
-        self.settings.table_friction == 0.0
-            && longest >= self.settings.step
-            && self.is_off_the_rim(tile, steady)
-    }
-
-    /// Advances a tile that meets nothing, by the forces in the middle of the step.
-    fn glide(&mut self, tile: usize, halfway: &Mover, steady: &Vector3<f64>) {
-        let h = self.settings.step;
-        let mut a = *steady;
-        let mut swing = Vector2::zeros();
-        let mover = &mut self.riders[tile].mover;
-        if !self.settings.fans.is_empty() {
-            let winds = Winds(&self.settings.fans);
-            let wind = winds.wind(halfway.place.xy(), self.time + 0.5 * h);
-            a += wind.whole().push(0.0) / self.masses[tile].x;
-            swing = wind.swing;
-        }
-        // Half of the drag has been applied, half of it follows: v0 goes as far as (1 - exp(-c h)) v0 / c.
-        let half = match self.settings.shaking {
-            None => 0.5 * self.settings.drag * h,
-            Some(_) => 0.0,
-        };
-        let stretch = if half > 0.0 {
-            libm::sinh(half) / half
-        } else {
-            1.0
-        };
-        let way = (mover.velocity * stretch + a * (0.5 * h)) * h;
-        mover.place += way;
-        self.account.work += swing.dot(&way.xy());
-        mover.velocity += a * h;
-    }
-
-    /// Whether a tile cannot reach the rim within a step.
-    fn is_off_the_rim(&self, tile: usize, steady: &Vector3<f64>) -> bool {
-        if !self.settings.walls {
-            return true;
-        }
-        let h = self.settings.step;
-        let rider = &self.riders[tile];
-        let speed = rider.mover.velocity.xy().norm() + h * steady.xy().norm();
-        rim_room(self.crowd, &rider.mover) > 3.0 * speed * h + self.least_near * SHARE_OF_NEAR
-    }
-}
-
-/// The tiles of a pair, in the order in which pairs come.
-fn key(two: &Two) -> [usize; 2] {
-    [two.first.min(two.second), two.first.max(two.second)]
-}
-
-/// What is known of a pair, in a list whose pairs come in the same order.
-fn next_of<T>(
-    two: &Two,
-    known: &mut Peekable<impl Iterator<Item = T>>,
-    of: impl Fn(&T) -> Two,
-) -> Option<T> {
-    while known.next_if(|it| key(&of(it)) < key(two)).is_some() {}
-    known.next_if(|it| of(it) == *two)
-}
-
-/// A tile after a time (s), if nothing acts on it.
-fn ahead(crowd: &Crowd, mover: &Mover, time: f64) -> (Mover, Pose) {
-    let place = mover.place + mover.velocity * time;
-    let mover = Mover { place, ..*mover };
-    (mover, Pose::of(crowd, &mover))
-}
-
-/// Replaces the elements of a vector.
-fn refill<T>(vector: &mut Vec<T>, with: impl IntoIterator<Item = T>) {
-    vector.clear();
-    vector.extend(with);
 }
