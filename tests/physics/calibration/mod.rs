@@ -12,6 +12,7 @@ use tilebind::Configuration;
 use tilebind::calibration::{Calibration, CalibrationSettings, Row, Specimen, calibrate};
 use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
 use tilebind::potential::{MagnetModel, Potential, ShieldedPotential};
+use tilebind::tile::magnet::{Form, Shape, Standing};
 use tilebind::tile::{Face, Magnet, Outline, Tile};
 
 const TRUTH: Shield = Shield {
@@ -64,8 +65,21 @@ fn measurements(noise: f64) -> Vec<Row> {
 
 /// The same, with shields on the given faces of the fixed tile.
 fn measurements_with(noise: f64, fixed_shields: &[Option<Shield>; 4]) -> Vec<Row> {
-    let (fixed, moving) = (tile(1.0), tile(-1.0));
-    let bare = ShieldedPotential::new(MagnetModel::Dipole, &fixed, &moving, &Shields::default());
+    measurements_of(
+        MagnetModel::Dipole,
+        [&tile(1.0), &tile(-1.0)],
+        noise,
+        fixed_shields,
+    )
+}
+
+fn measurements_of(
+    model: MagnetModel,
+    [fixed, moving]: [&Tile; 2],
+    noise: f64,
+    fixed_shields: &[Option<Shield>; 4],
+) -> Vec<Row> {
+    let bare = ShieldedPotential::new(model, fixed, moving, &Shields::default());
     let iron = bare.with_shields(&Shields {
         rule: ShieldRule::Smooth,
         fixed: fixed_shields.to_vec(),
@@ -124,6 +138,35 @@ fn the_constants_are_found_again() {
     assert!((found.shield.front_gain - TRUTH.front_gain).abs() < 1e-4);
     assert_eq!((found.held_out.rows, found.held_out.with_iron), (30, 20));
     assert!(found.held_out.relative[1].unwrap() < 1e-4);
+}
+
+#[test]
+fn shields_behind_upright_discs_are_fitted() {
+    let model = MagnetModel::Cuboid;
+    let [fixed, moving] = [(1.0, Standing::Up), (-1.0, Standing::Down)].map(|(pole, up)| {
+        let mut tile = tile(pole);
+        for magnet in &mut tile.magnets {
+            magnet.size = [0.008, 0.008, 0.004];
+            magnet.form = Form {
+                shape: Shape::Disc,
+                stands: Some(up),
+            };
+        }
+        tile
+    });
+    let rows = measurements_of(model, [&fixed, &moving], 0.0, &[Some(TRUTH); 4]);
+    let specimen = Specimen {
+        model,
+        fixed: &fixed,
+        moving: &moving,
+        shields: &Shields::default(),
+    };
+    let found = calibrate(&specimen, &rows, &CalibrationSettings::default()).unwrap();
+    assert!(found.settled && (found.strength - 1.05).abs() < 1e-9);
+    assert!((found.shield.attenuation - TRUTH.attenuation).abs() < 1e-3);
+    assert!((found.shield.length - TRUTH.length).abs() < 1e-4);
+    assert!((found.shield.width - TRUTH.width).abs() < 1e-3);
+    assert!((found.shield.front_gain - TRUTH.front_gain).abs() < 1e-3);
 }
 
 #[test]
