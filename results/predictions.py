@@ -237,7 +237,7 @@ def main(program, out):
     for count in CHAINS:
         shaken = [row[f"shaken_{count}_g"] for row in panel_rows if row[f"shaken_{count}_g"]]
         of = f"{len(shaken)} of {SHAKEN}"
-        simulated = f"{min(shaken):.2g} to {max(shaken):.2g} ({of})" if shaken else "not simulated"
+        simulated = f"{plain(min(shaken))} to {plain(max(shaken))} ({of})" if shaken else "not simulated"
         panel_lines.append([f"chain of {count}", low_high([row["held_g"] / (count - 1) for row in panel_rows]), simulated])
     matters = []
     for name, rows, ranges, of in (("panels: acceleration that opens a bond", panel_rows, PANELS, "held_g"),
