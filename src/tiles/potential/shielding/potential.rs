@@ -158,7 +158,7 @@ impl Potential for ShieldedPotential {
     }
 
     /// From `|(w u)''| <= |w| |u''| + 2 |w'| |u'| + |w''| |u|` for each pair, and the like of the
-    /// third derivative, with the bounds of [`Limits`] for u and those of the factors for w. With
+    /// third derivative, with the bounds of pairs for u (`pairs`) and those of the factors for w. With
     /// the nearest-face rule they hold only between the jumps.
     fn bend_bounds(&self, q: &Configuration, reach: f64) -> [f64; 2] {
         let (turn, stride) = (self.lever.turn(), self.columns.len());
