@@ -159,6 +159,12 @@ impl SolverPoint {
         beyond >= -error && (push == 0.0 || (beyond <= error && rubs))
     }
 
+    /// Whether it has an impulse, or had one before the last sweep.
+    #[inline(always)]
+    pub fn carries(&self) -> bool {
+        self.impulses != [0.0; 2] || self.swept != [0.0; 2]
+    }
+
     /// After a sweep: goes on by a share of its change, within the friction cone. The velocities have
     /// done so without the cone.
     #[inline(always)]

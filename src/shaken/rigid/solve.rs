@@ -98,6 +98,8 @@ struct Prepared {
     /// Its points by their indices, in the order of their solution.
     order: Vec<usize>,
     points: Vec<SolverPoint>,
+    /// The numbers of the points that sweeps do not leave out.
+    carrying: Vec<usize>,
     /// The numbers of the tiles of its points on the table.
     under: Vec<usize>,
     rests: Vec<RestPoint>,
@@ -174,6 +176,7 @@ impl Prepared {
             before: &mut self.before,
             swept: &mut self.swept,
             points: &mut self.points,
+            carrying: &mut self.carrying,
             rests: &mut self.rests,
             error,
         };
@@ -433,6 +436,7 @@ mod tests {
                         before: &mut Vec::new(),
                         swept: &mut Vec::new(),
                         points: &mut points,
+                        carrying: &mut Vec::new(),
                         rests: &mut [],
                         error: ERROR,
                     })

@@ -1,7 +1,6 @@
 //! A step along its way, and what it did to the energy.
 
 use nalgebra::{Vector2, Vector3};
-use ordered_float::OrderedFloat;
 
 use super::World;
 use super::hold::{Hold, kinetic};
@@ -83,22 +82,29 @@ impl<W: World> Island<'_, W> {
             .iter()
             .map(|hold| hold.rate(&state.velocities))
             .collect();
-        let lasts = |hold: &Hold| {
+        let least = self.margins.touched / next.unhurried;
+        let fast = (0..rates.len()).filter(|k| rates[*k] > least);
+        let fast: Points<usize> = fast.collect();
+        let lasts = |(k, hold): (usize, &Hold)| {
             let slow = self.slow(&next, hold);
-            // By its normal at the start: where tiles turn together, that at the end would show a bounce.
+            // Whether the nearest point moved apart, by its normal at the start: where tiles turn together, that at
+            // the end would show a bounce. What lasts is much the same point in both lists.
             let bounced = || {
-                let all = state.holds.iter().zip(&rates);
-                let like = all.filter(|(it, _)| it.is_like(hold));
-                let same = || {
-                    like.clone()
-                        .min_by_key(|(it, _)| OrderedFloat(it.apart(hold)))
+                let of_state = |k: &usize| &state.holds[*k];
+                let like = |k: &usize| of_state(k).is_like(hold);
+                let fast = fast.iter().filter(|k| rates[**k] > slow && like(k));
+                let nearest = fast.map(|k| of_state(k).apart(hold)).reduce(f64::min);
+                let from = k.min(rates.len());
+                let mut others = (from..rates.len()).chain(0..from);
+                let is_nearer = |k: usize, nearest: f64| {
+                    rates[k] <= slow && like(&k) && of_state(&k).apart(hold) <= nearest
                 };
-                // The search for the same point is long where there are many.
-                rates.iter().any(|rate| *rate > slow) && same().is_some_and(|it| *it.1 > slow)
+                nearest.is_some_and(|nearest| !others.any(|k| is_nearer(k, nearest)))
             };
             held.iter().any(|it| it.is_like(hold)) && hold.rate(&way) >= -slow && !bounced()
         };
-        let mut holds: Vec<Hold> = next.holds.iter().filter(|it| lasts(it)).copied().collect();
+        let last = next.holds.iter().enumerate().filter(|it| lasts(*it));
+        let mut holds: Vec<Hold> = last.map(|it| *it.1).collect();
         for hold in &mut holds {
             hold.impulses = hold.forces.map(|force| force * 0.5 * h);
             // What is apart by less than the force moves it in half a step meets in that time.
