@@ -7,7 +7,7 @@ use serde_json::json;
 use tilebind::output::{Output, OutputError};
 use tilebind::report::files::REPORT;
 use tilebind::report::json;
-use tilebind::report::sweep::{FILES, Sweep as Report, counts};
+use tilebind::report::sweep::{FILES, FinishedSweep, counts};
 use tilebind::request;
 use tilebind::search::{Request as Aims, Search, SearchError};
 use tilebind::sweep::{
@@ -328,7 +328,7 @@ impl Sweep {
 
     fn merge(&self, plan: &Plan, folder: &Path, output: &Output) -> Result<(), Failure> {
         let store = Store::new(folder);
-        let report = Report::read(plan, &store).map_err(|progress| {
+        let report = FinishedSweep::read(plan, &store).map_err(|progress| {
             Failure::Run(format!(
                 "the sweep is not finished, {}: rerun its parts to resume",
                 counts(&progress)

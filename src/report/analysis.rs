@@ -6,7 +6,7 @@
 
 use serde_json::{Value, json};
 
-use super::document::{Document, Drawing, Entries, Part};
+use super::document::{Document, Drawing, Entries, PagePart};
 use super::figures::percent;
 use super::files::{Files, PAGE, PICTURES, REPORT};
 use super::names::{self, alternative_file, pathway_file, place};
@@ -102,7 +102,8 @@ pub fn document<'a>(
         answer: summary::answer(design, analysis),
         remarks: summary::remarks(design, analysis),
         entries: report(design, analysis, is_whole, wall).and(shown),
-        part: is_whole.then(|| Part::Landscape(Box::new(Landscape::new(design, scene, played)))),
+        part: is_whole
+            .then(|| PagePart::Landscape(Box::new(Landscape::new(design, scene, played)))),
         pictures: match extent {
             Extent::Numbers => Vec::new(),
             _ => pictures(analysis, scene),
@@ -318,7 +319,7 @@ fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
     let (kinds, names) = (scene.kinds(), scene.catalogue.names());
     let first = |is_bond| {
         let kind = kinds.iter().find(|kind| kind.is_bond() == is_bond)?;
-        Some(states::Row::of_kind(design, analysis, &names, kind))
+        Some(states::StateRow::of_kind(design, analysis, &names, kind))
     };
     let facts = Entries::default();
     let describe = |facts: Entries, name, value: String, note: String| {
@@ -349,7 +350,7 @@ fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
         let note = format!("{} of {}", share.count, share.of);
         facts = describe(facts, "far starts that bind", percent(&share), note);
     }
-    let way_out = |row: &states::Row| match &row.escape {
+    let way_out = |row: &states::StateRow| match &row.escape {
         Some(barrier) if barrier.has_way() => {
             let certified = barrier
                 .certified()

@@ -1,6 +1,6 @@
 //! Crosstalk as a document: the attraction of every two words over all poses.
 
-use super::document::{Document, Drawing, Entries, Part, Table, rows};
+use super::document::{Document, Drawing, Entries, PagePart, Table, rows};
 use super::files::{PAGE, REPORT};
 use super::page::Meetings;
 use super::page::meetings::{Carrier, Met};
@@ -37,7 +37,7 @@ pub fn document<'a>(set: &'a WordSet, found: &'a Crosstalk) -> Document<'a> {
         answer: headline(set, found),
         entries: entries(set, found),
         pictures: pictures(map.as_ref(), found),
-        part: map.map(Part::Meetings),
+        part: map.map(PagePart::Meetings),
         notes: vec![
             "Words may also trap their own mates. Traps are found by search, not proved complete."
                 .to_owned(),

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::document::{Document, Drawing, Entries, Part, Table, entries, rows};
+use crate::document::{Document, Drawing, Entries, PagePart, Table, entries, rows};
 use crate::files::{PAGE, REPORT};
 use crate::page::{Landscape, Played};
 use crate::plots::{Figure, PictureError, Scene, Sheet, dock, paths};
@@ -275,7 +275,7 @@ fn pictures<'a>(design: &'a Design, docking: &'a Docking, paths: &'a Paths) -> V
 }
 
 /// The animations of the page.
-fn scene(design: &Design, problem: &Problem, docking: &Docking, paths: &Paths) -> Part {
+fn scene(design: &Design, problem: &Problem, docking: &Docking, paths: &Paths) -> PagePart {
     let catalogue = Catalogue {
         states: states(problem, docking, design.pair.bound),
         ..Catalogue::default()
@@ -284,7 +284,7 @@ fn scene(design: &Design, problem: &Problem, docking: &Docking, paths: &Paths) -
     let played = played
         .map(|(run, snapshots)| Played::of_trajectory(name(docking, run), snapshots, problem));
     let scene = Scene::new(design, problem, &catalogue);
-    Part::Landscape(Box::new(Landscape::new(design, &scene, played.collect())))
+    PagePart::Landscape(Box::new(Landscape::new(design, &scene, played.collect())))
 }
 
 /// The bond and the traps, to be marked in pictures.

@@ -27,7 +27,7 @@ const LENGTHS: [&str; 12] = [
 
 /// A finished sweep.
 #[derive(Clone, Debug)]
-pub struct Sweep<'a> {
+pub struct FinishedSweep<'a> {
     /// The plan.
     pub plan: &'a Plan,
     /// The points of the plan, in order.
@@ -36,7 +36,7 @@ pub struct Sweep<'a> {
     pub outcomes: Vec<Outcome>,
 }
 
-impl<'a> Sweep<'a> {
+impl<'a> FinishedSweep<'a> {
     /// Reads the outcome of each point.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ use physics::configuration::Configuration;
 use physics::landscape::{Barrier, Catalogue, Kind, Place, Proportion, State, StateKind};
 
 /// A state with its further data.
-pub struct Row<'a> {
+pub struct StateRow<'a> {
     /// The state itself.
     pub state: &'a State,
     /// Its letter.
@@ -28,7 +28,7 @@ pub struct Row<'a> {
     pub escape: Option<Barrier>,
 }
 
-impl<'a> Row<'a> {
+impl<'a> StateRow<'a> {
     fn new(design: &Design, analysis: &'a Analysis, names: &'a [String], state: &'a State) -> Self {
         let same = |other: &&State| other.class == state.class;
         Self {
@@ -76,13 +76,13 @@ impl<'a> Row<'a> {
 /// their pathways.
 // One line a column.
 #[rustfmt::skip]
-fn columns<'a>(catalogue: &'a Catalogue, states: impl IntoIterator<Item = Row<'a>>, is_whole: bool) -> Rows<'a, Row<'a>> {
-    let leads_to = |it: &Row| match it.escape.as_ref().map(|way| (why_no_way(way), way.to)) {
+fn columns<'a>(catalogue: &'a Catalogue, states: impl IntoIterator<Item = StateRow<'a>>, is_whole: bool) -> Rows<'a, StateRow<'a>> {
+    let leads_to = |it: &StateRow| match it.escape.as_ref().map(|way| (why_no_way(way), way.to)) {
         Some((Some(why), _)) => why.to_owned(),
         Some((None, to)) => catalogue.name_of(to),
         None => "-".to_owned(),
     };
-    let escape = move |row: &Row| -> Option<Value> {
+    let escape = move |row: &StateRow| -> Option<Value> {
         let mut entry = barriers([row.escape.as_ref()?]).json()[0].take();
         if !is_whole && row.state.id != row.state.class {
             entry["pathway"] = Value::Null;
@@ -104,13 +104,13 @@ fn columns<'a>(catalogue: &'a Catalogue, states: impl IntoIterator<Item = Row<'a
         .column("capture", "captured", "fraction of the far starts that end in any of them", |it| it.capture).sampled()
         .column("attracting", "attracting", "magnet pairs close together", |it| it.state.attracting)
         .column("repelling", "repelling", "magnet pairs close together", |it| it.state.repelling)
-        .column("faces", "faces", "in contact", Row::pairs).in_csv()
+        .column("faces", "faces", "in contact", StateRow::pairs).in_csv()
         .data("faces", |it| json!(it.faces)).in_json()
         .column("block_energy_J", "energy of blocks", "in place of point dipoles", |it| it.state.block_energy)
         .column("dipole_error_J", "error of dipoles", "", |it| it.state.dipole_error()).in_csv()
         .column("name", "state", "letters by depth", |it| it.name)
         // It is proved that there is no way out.
-        .column("caged", "caged", "", Row::is_caged).in_csv()
+        .column("caged", "caged", "", StateRow::is_caged).in_csv()
         .data("escape", escape).in_json()
 }
 
@@ -119,7 +119,7 @@ fn columns<'a>(catalogue: &'a Catalogue, states: impl IntoIterator<Item = Row<'a
 pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
     let (catalogue, names) = (&analysis.catalogue, analysis.catalogue.names());
     let states = catalogue.states.iter();
-    let states = states.map(|state| Row::new(design, analysis, &names, state));
+    let states = states.map(|state| StateRow::new(design, analysis, &names, state));
     let table = columns(catalogue, states, is_whole).table("states");
     table.in_file("states").in_data()
 }
@@ -129,7 +129,7 @@ pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
 #[rustfmt::skip]
 pub fn kinds(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
     let (names, kinds) = (scene.catalogue.names(), scene.kinds());
-    let states = kinds.iter().map(|kind| Row::of_kind(design, analysis, &names, kind));
+    let states = kinds.iter().map(|kind| StateRow::of_kind(design, analysis, &names, kind));
     columns(&analysis.catalogue, states, true)
         .energies(4)
         .view(&[
@@ -152,16 +152,16 @@ pub fn kinds(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
 #[rustfmt::skip]
 pub fn listed<'a>(design: &Design, analysis: &'a Analysis, kinds: impl Iterator<Item = Kind<'a>>, digits: usize) -> Table {
     let (catalogue, names) = (&analysis.catalogue, analysis.catalogue.names());
-    let copies = |it: &Row| match it.copies { 1 => String::new(), copies => format!(" x{copies}") };
-    let leads_to = |it: &Row| match it.escape.as_ref().map(|way| (why_no_way(way), way.to)) {
+    let copies = |it: &StateRow| match it.copies { 1 => String::new(), copies => format!(" x{copies}") };
+    let leads_to = |it: &StateRow| match it.escape.as_ref().map(|way| (why_no_way(way), way.to)) {
         // The letter says which state it is.
         Some((None, Place::State(to))) => names[to].clone(),
         Some((None, Place::Free)) => catalogue.name_of(Place::Free),
         Some((Some(why), _)) => why.to_owned(),
         None => "none found".to_owned(),
     };
-    let pairs = |it: &Row| Some(it.pairs()).filter(|pairs| !pairs.is_empty());
-    rows(kinds.map(|kind| Row::of_kind(design, analysis, &names, &kind)))
+    let pairs = |it: &StateRow| Some(it.pairs()).filter(|pairs| !pairs.is_empty());
+    rows(kinds.map(|kind| StateRow::of_kind(design, analysis, &names, &kind)))
         .shown("state", "", |it| catalogue.name_of(Place::State(it.state.id)) + &copies(it))
         .shown("captures", "", |it| it.capture)
         .column("_J", "energy", "", |it| it.state.energy).digits(digits)

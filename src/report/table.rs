@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::assembly::grown_with_errors;
 use crate::chains;
-use crate::document::{Document, Drawing, Entries, Part, Table, rows};
+use crate::document::{Document, Drawing, Entries, PagePart, Table, rows};
 use crate::figures::within;
 use crate::gsd::{self, Particle};
 use crate::page::Crowd;
@@ -14,7 +14,7 @@ use jobs::assembly::kinetic::Growth;
 use jobs::output::Files;
 use jobs::request::Shard;
 use jobs::table::{
-    About, EndOfTable, Interval, Lifetime, Moment, PART, Prediction, Request, Statistics,
+    About, EndOfTable, Lifetime, MeanInterval, Moment, PART, Prediction, Request, Statistics,
     TableResult,
 };
 use jobs::yields::{self, Chains, KindRates, YieldError, Yields};
@@ -47,7 +47,7 @@ pub fn document<'a>(
         ),
         remarks: vec![meaning(about, found)],
         entries: entries(about, found, seed).and(compared(beside)),
-        part: Some(Part::Crowd(Crowd::new(found))),
+        part: Some(PagePart::Crowd(Crowd::new(found))),
         pictures: pictures(found),
         beside: files(found, request),
         notes: notes(found, request)
@@ -81,7 +81,7 @@ fn verdict(statistics: &Statistics) -> &'static str {
     }
 }
 
-fn describe(interval: &Interval) -> String {
+fn describe(interval: &MeanInterval) -> String {
     match (interval.low, interval.high) {
         (Some(low), Some(high)) => within(interval.mean, [low, high], |x| plain(x, 3)),
         _ => plain(interval.mean, 3),
@@ -283,7 +283,7 @@ fn against_rows(found: &TableResult, built: &Chains) -> String {
 
 /// Whether the intervals of a simulated number and of a prediction have common values; `None` for a
 /// single run.
-fn agree(here: &Interval, there: [f64; 2]) -> Option<bool> {
+fn agree(here: &MeanInterval, there: [f64; 2]) -> Option<bool> {
     Some(here.high? >= there[0] && here.low? <= there[1])
 }
 
@@ -417,7 +417,7 @@ fn lasting(lifetime: &Lifetime, found: &TableResult) -> String {
 /// The share of the target, for people.
 fn reached(about: &About, found: &TableResult) -> String {
     let percent = |x: f64| plain(100.0 * x.clamp(0.0, 1.0), 3);
-    let Interval {
+    let MeanInterval {
         mean,
         sd,
         low,
@@ -524,7 +524,7 @@ fn sizes(found: &TableResult) -> Table {
 // One line a column.
 #[rustfmt::skip]
 fn course(found: &TableResult) -> Table {
-    let ends = |of: fn(&Moment) -> Interval| move |it: &Moment| { let at = of(it); at.low.zip(at.high).map(|(low, high)| [low.max(0.0), high]) };
+    let ends = |of: fn(&Moment) -> MeanInterval| move |it: &Moment| { let at = of(it); at.low.zip(at.high).map(|(low, high)| [low.max(0.0), high]) };
     rows(found.statistics.moments.clone())
         .data("time_s", |it| it.time) // since the start
         .data("bonds", |it| it.bonds.mean) // mean over the runs
@@ -660,7 +660,7 @@ fn pictures(found: &TableResult) -> Vec<Drawing<'_>> {
     let chart = |name, title: &str, y: Dimension| {
         Chart::new(name, title, Dimension::new("time_s", "time"), y)
     };
-    let line = |of: fn(&Moment) -> Interval| {
+    let line = |of: fn(&Moment) -> MeanInterval| {
         moments.iter().map(move |it| {
             let at = of(it);
             ChartPoint {

@@ -2,11 +2,11 @@
 
 use tilebind::comparison::quantity::QUANTITIES;
 use tilebind::comparison::ranking::{order, ranked};
-use tilebind::comparison::{Assessment, Bond, Quantity, Way};
+use tilebind::comparison::{Assessment, Bond, Quantity, WayOut};
 use tilebind::landscape::SaddleBounds;
 use tilebind::landscape::minimax::Ordering;
 
-fn design(model: &str, energy: f64, way_out: Way) -> Assessment {
+fn design(model: &str, energy: f64, way_out: WayOut) -> Assessment {
     Assessment {
         name: String::new(),
         sha256: String::new(),
@@ -34,8 +34,8 @@ fn design(model: &str, energy: f64, way_out: Way) -> Assessment {
     }
 }
 
-fn way(lower: f64, upper: f64) -> Way {
-    Way {
+fn way(lower: f64, upper: f64) -> WayOut {
+    WayOut {
         saddle: Some(upper),
         bounds: SaddleBounds {
             lower: Some(lower),
@@ -61,7 +61,7 @@ fn the_climb_is_measured_from_the_state() {
     assert_eq!(order(&deep, &shallow, binding), Ordering::Undecided);
     let blocks = design("cuboid", -1.0, way(0.0, 0.5));
     assert_eq!(order(&deep, &blocks, unbinding), Ordering::Undecided);
-    let unknown = design("dipole", -1.0, Way::default());
+    let unknown = design("dipole", -1.0, WayOut::default());
     assert_eq!(order(&deep, &unknown, unbinding), Ordering::Undecided);
     assert_eq!(ranked(&[shallow, unknown, deep], unbinding), [2, 0, 1]);
 }
@@ -69,7 +69,7 @@ fn the_climb_is_measured_from_the_state() {
 #[test]
 fn a_cage_is_higher_than_any_barrier_with_a_way_over_it() {
     let [_, binding] = unbinding_and_binding();
-    let mut caged = Way::default();
+    let mut caged = WayOut::default();
     caged.bounds.caged = true;
     let cage = design("dipole", -1.0, caged);
     let open = design("dipole", -1.0, way(0.0, 0.5));

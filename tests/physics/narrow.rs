@@ -10,7 +10,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Design;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
-use tilebind::kinetics::Way;
+use tilebind::kinetics::PathToFree;
 use tilebind::kinetics::rates::exit::{ExitSettings, exit};
 use tilebind::kinetics::rates::{Basin, RateSettings, rates};
 use tilebind::potential::Potential;
@@ -186,7 +186,10 @@ fn cross_section(problem: &Problem, bond: &Configuration, out: f64) -> f64 {
 /// A corridor missed by all cells of a first mesh is found, and no blocked region is opened.
 #[test]
 fn a_corridor_narrower_than_first_cells_is_open_and_a_dovetail_is_not() {
-    for (shape, way) in [("draft = 0.0", Way::Open), ("draft = -0.3", Way::Blocked)] {
+    for (shape, way) in [
+        ("draft = 0.0", PathToFree::Open),
+        ("draft = -0.3", PathToFree::Blocked),
+    ] {
         let text = CORRIDOR
             .replace("draft = 0.0", shape)
             .replace("0.06,", "0.02,");
@@ -200,7 +203,7 @@ fn a_corridor_narrower_than_first_cells_is_open_and_a_dovetail_is_not() {
         let found = rates(&problem, &settings).unwrap();
         assert_eq!(found.ways, [way], "{shape}");
         let out = found.finest().rates[0][1];
-        assert!((out > 0.0) == (way == Way::Open), "{shape}: {out}");
+        assert!((out > 0.0) == (way == PathToFree::Open), "{shape}: {out}");
     }
 }
 
@@ -218,7 +221,7 @@ fn a_corridor_far_narrower_than_first_cells_carries_what_its_cross_section_says(
         ..RateSettings::new(10.0, vec![Basin { at: bond, below }], 0.7)
     };
     let found = rates(&problem, &settings).unwrap();
-    assert_eq!(found.ways, [Way::Open]);
+    assert_eq!(found.ways, [PathToFree::Open]);
     for mesh in &found.meshes {
         println!("{mesh:?}");
     }

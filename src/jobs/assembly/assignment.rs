@@ -8,7 +8,7 @@
 
 use super::depths::Depths;
 use super::matrix::Matrix;
-use super::wiring::{Group, Wiring};
+use super::wiring::{LinkedBonds, Wiring};
 use physics::order::Order;
 use physics::words::Word;
 
@@ -75,7 +75,7 @@ pub fn assign(
 /// Faces for the bonds whose words bind each other's mates: the first solution in order.
 fn fixed(all: &Matrix, wiring: &Wiring) -> Result<Vec<Option<usize>>, String> {
     let mut fixed: Vec<Option<usize>> = vec![None; wiring.bonds.len()];
-    for Group { bonds, strengths } in wiring.groups() {
+    for LinkedBonds { bonds, strengths } in wiring.groups() {
         let taken: Vec<usize> = fixed.iter().flatten().copied().collect();
         let mut chosen: Vec<usize> = Vec::new();
         let mut next = 0;

@@ -4,18 +4,18 @@
 pub const SIDES: [&str; 4] = ["north", "east", "south", "west"];
 
 /// Two tiles that meet in an assembly: along an axis the first lies west or south of the second.
-pub type Met = (usize, Axis, usize);
+pub type Met = (usize, MeetingAxis, usize);
 
 /// An axis along which tiles meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Axis {
+pub enum MeetingAxis {
     /// East faces meet west faces.
     Horizontal,
     /// North faces meet south faces.
     Vertical,
 }
 
-impl Axis {
+impl MeetingAxis {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Horizontal, Self::Vertical];
 

@@ -16,7 +16,7 @@
 use std::collections::BTreeMap;
 
 use super::assignment::assign;
-use super::axis::{Axis, Met};
+use super::axis::{MeetingAxis, Met};
 use super::depths::Depths;
 use super::growth::{Grown, Holds, grow, neighbours};
 use super::matrix::Matrix;
@@ -362,7 +362,7 @@ fn all_meetings(set: &TileSet, wiring: &Wiring) -> BTreeMap<Met, usize> {
     let used = |tile: &usize| set.tiles[*tile].stoic > 0.0;
     let tiles = || (0..set.tiles.len()).filter(used);
     let pairs = tiles().flat_map(|a| tiles().map(move |b| (a, b)));
-    let met = pairs.flat_map(|(a, b)| Axis::ALL.map(|axis| (a, axis, b)));
+    let met = pairs.flat_map(|(a, b)| MeetingAxis::ALL.map(|axis| (a, axis, b)));
     let bound = met.filter(|met| wiring.meeting(set, met).is_some());
     bound.take(MOST_MEETINGS).map(|met| (met, 1)).collect()
 }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::Request;
-use super::wiring::Group;
+use super::wiring::LinkedBonds;
 use crate::word_sets::least_spacing;
 use physics::budget::Budget;
 use physics::observer::Observer;
@@ -83,7 +83,7 @@ struct Requirements<'a> {
     /// Strengths and the number of words needed of each, strongest first.
     demand: &'a [(f64, usize)],
     /// Groups of words that must bind each other's mates.
-    groups: &'a [Group],
+    groups: &'a [LinkedBonds],
     places: usize,
     bar: &'a Bar,
     request: &'a Request,
@@ -148,7 +148,7 @@ impl Requirements<'_> {
 /// possible one. Returns all trials, of which the last is the answer. `demand` is as from
 /// [`super::Wiring::demand`].
 pub fn choose(
-    (demand, groups): (&[(f64, usize)], &[Group]),
+    (demand, groups): (&[(f64, usize)], &[LinkedBonds]),
     places: usize,
     bar: &Bar,
     request: &Request,
@@ -233,7 +233,7 @@ fn widest(asked: &Requirements, class: Class) -> Choice {
 /// with a small effort first, up to one that carries the words, and then shorter ones, one by one,
 /// with the whole effort.
 pub fn shortest(
-    (demand, groups): (&[(f64, usize)], &[Group]),
+    (demand, groups): (&[(f64, usize)], &[LinkedBonds]),
     most: usize,
     bar: &Bar,
     request: &Request,
@@ -381,7 +381,7 @@ fn at_gap(asked: &Requirements, gap: f64, effort: &mut Effort) -> Choice {
 /// solution in order, or fewer words than bonds if there is none.
 fn linked(
     asked: &Requirements,
-    group: &Group,
+    group: &LinkedBonds,
     there: &[Word],
     limit: &dyn Fn(&Task) -> f64,
     effort: &mut Effort,

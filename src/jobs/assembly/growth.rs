@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use super::TileSet;
-use super::axis::{Axis, Met};
+use super::axis::{MeetingAxis, Met};
 
 /// A place: steps to the east and to the north of the seed.
 pub type Site = (i32, i32);
@@ -129,7 +129,7 @@ impl Grown {
     pub fn meetings(&self) -> BTreeMap<Met, usize> {
         let mut met = BTreeMap::new();
         for (place, tile) in &self.tiles {
-            for axis in Axis::ALL {
+            for axis in MeetingAxis::ALL {
                 let there = neighbours(*place).nth(axis.sides()[0]);
                 if let Some(other) = there.and_then(|(_, there)| self.tiles.get(&there)) {
                     *met.entry((*tile, axis, *other)).or_default() += 1;

@@ -54,7 +54,7 @@ use crate::design::{DesignError, FilePlace};
 use crate::text::{check_visible, is_invisible};
 
 pub use assembled::{Assembly, Growing};
-pub use axis::{Axis, SIDES};
+pub use axis::{MeetingAxis, SIDES};
 pub use built::Built;
 pub use request::Request;
 pub use tile_set::{Glue, MOST, TileSet, TileType};

@@ -7,7 +7,7 @@
 //! there are as strong: the block grows along that row or column, and the others follow with two
 //! bonds.
 
-use super::{Axis, MOST, TileSet, TileType};
+use super::{MOST, MeetingAxis, TileSet, TileType};
 
 /// The set of blocks; for K = 1 the set itself.
 ///
@@ -51,19 +51,19 @@ pub fn blocks(set: &TileSet, k: usize) -> Result<TileSet, String> {
     }
     for (number, tile) in set.tiles.iter().enumerate() {
         // The largest strength of a glue.
-        let is_strong = |axis: Axis| {
+        let is_strong = |axis: MeetingAxis| {
             let glues = axis.sides().into_iter().filter_map(|side| tile.glues[side]);
             let most = |glue: usize| strengths[glue].iter().copied().fold(0.0, f64::max);
             glues.map(most).fold(0.0, f64::max) >= tau
         };
-        let strong = Axis::ALL.map(is_strong);
+        let strong = MeetingAxis::ALL.map(is_strong);
         let seeded = set.seed.iter().any(|(_, _, seed)| *seed == number);
         for y in 0..k {
             for x in 0..k {
-                let mut inner = |axis: Axis, x: usize, y: usize| {
+                let mut inner = |axis: MeetingAxis, x: usize, y: usize| {
                     let (way, along, row) = match axis {
-                        Axis::Horizontal => ("h", x, y),
-                        Axis::Vertical => ("v", y, x),
+                        MeetingAxis::Horizontal => ("h", x, y),
+                        MeetingAxis::Vertical => ("v", y, x),
                     };
                     let strength = match row == 0 && (strong[axis as usize] || seeded) {
                         true => tau,
@@ -71,18 +71,19 @@ pub fn blocks(set: &TileSet, k: usize) -> Result<TileSet, String> {
                     };
                     Some(out.glue(&format!("{}/{way}{along}.{row}", tile.name), strength))
                 };
-                let mut side = |side: usize, axis: Axis, at_end: bool, x: usize, y: usize| {
-                    let row = if axis == Axis::Vertical { x } else { y };
-                    match at_end {
-                        true => tile.glues[side].map(|glue| glue * k + row),
-                        false => inner(axis, x, y),
-                    }
-                };
+                let mut side =
+                    |side: usize, axis: MeetingAxis, at_end: bool, x: usize, y: usize| {
+                        let row = if axis == MeetingAxis::Vertical { x } else { y };
+                        match at_end {
+                            true => tile.glues[side].map(|glue| glue * k + row),
+                            false => inner(axis, x, y),
+                        }
+                    };
                 let glues = [
-                    side(0, Axis::Vertical, y == k - 1, x, y),
-                    side(1, Axis::Horizontal, x == k - 1, x, y),
-                    side(2, Axis::Vertical, y == 0, x, y.wrapping_sub(1)),
-                    side(3, Axis::Horizontal, x == 0, x.wrapping_sub(1), y),
+                    side(0, MeetingAxis::Vertical, y == k - 1, x, y),
+                    side(1, MeetingAxis::Horizontal, x == k - 1, x, y),
+                    side(2, MeetingAxis::Vertical, y == 0, x, y.wrapping_sub(1)),
+                    side(3, MeetingAxis::Horizontal, x == 0, x.wrapping_sub(1), y),
                 ];
                 out.tiles.push(TileType {
                     name: format!("{}/{x}.{y}", tile.name),

@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector, Rotation2};
 
-use super::axis::Axis;
+use super::axis::MeetingAxis;
 use crate::design::WordSet;
 use physics::matrix::product;
 use physics::tile::{Magnet, Tile};
@@ -42,7 +42,7 @@ impl Rests {
 
     /// The energy (J) that all faces except the two in contact add to a bond along an axis, with
     /// the first tile in the west or south.
-    pub fn of(&self, axis: Axis, first: &Faces, second: &Faces) -> f64 {
+    pub fn of(&self, axis: MeetingAxis, first: &Faces, second: &Faces) -> f64 {
         let poles = |word: Word| DVector::from_fn(word.places(), |k, _| f64::from(word.at(k)));
         let energy = |[a, b]: [usize; 2]| {
             let (u, v) = (poles(first[a]?), poles(second[b]?));
@@ -64,17 +64,17 @@ impl Rests {
 }
 
 /// The sides of two tiles along an axis, except the two in contact.
-pub(super) fn others(axis: Axis) -> impl Iterator<Item = [usize; 2]> {
+pub(super) fn others(axis: MeetingAxis) -> impl Iterator<Item = [usize; 2]> {
     let pairs = (0..4).flat_map(|a| (0..4).map(move |b| [a, b]));
     pairs.filter(move |sides| *sides != axis.sides())
 }
 
 /// The side that a side becomes when two tiles along an axis are rotated so that the second lies in
 /// the east.
-pub(super) fn eastern(axis: Axis, side: usize) -> usize {
+pub(super) fn eastern(axis: MeetingAxis, side: usize) -> usize {
     match axis {
-        Axis::Horizontal => side,
-        Axis::Vertical => (side + 1) % 4,
+        MeetingAxis::Horizontal => side,
+        MeetingAxis::Vertical => (side + 1) % 4,
     }
 }
 

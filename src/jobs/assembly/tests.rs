@@ -5,7 +5,9 @@ use super::choice::{self, WordsVerdict};
 use super::growth::{Grown, grow};
 use physics::kinetics::bond::Shaking;
 
-use super::{Axis, Built, Request, TileSet, Wiring, lattice, proofread, rgrow, square, xgrow};
+use super::{
+    Built, MeetingAxis, Request, TileSet, Wiring, lattice, proofread, rgrow, square, xgrow,
+};
 use crate::design::WordSet;
 use crate::request::of_keywords;
 use physics::observer::Silent;
@@ -253,7 +255,7 @@ fn a_glue_on_both_axes_needs_two_words() {
             .iter()
             .map(|bond| bond.axis)
             .collect::<Vec<_>>(),
-        [Axis::Vertical, Axis::Horizontal]
+        [MeetingAxis::Vertical, MeetingAxis::Horizontal]
     );
     for (m, n) in [(1, 2), (3, 3), (4, 7)] {
         let needed = Wiring::new(&lattice::unique([m, n])).unwrap().bonds.len();

@@ -8,14 +8,14 @@
 //! bond.
 
 use super::TileSet;
-use super::axis::{Axis, Met, SIDES};
+use super::axis::{MeetingAxis, Met, SIDES};
 use physics::order::Order;
 
 /// Glues that bind each other along an axis through one word.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bond {
     /// The axis.
-    pub axis: Axis,
+    pub axis: MeetingAxis,
     /// In Gse.
     pub strength: f64,
     /// The glues of faces that carry the word, and of faces that carry its mate.
@@ -33,7 +33,7 @@ pub struct Link {
 
 /// Bonds connected by links, and the requirements of their words.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Group {
+pub struct LinkedBonds {
     /// The bonds, ascending.
     pub bonds: Vec<usize>,
     /// The strengths (in Gse) between each bond's word and each bond's mate; their own on the
@@ -56,7 +56,7 @@ pub struct Wiring {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TilePair {
     /// The axis along which they meet.
-    pub axis: Axis,
+    pub axis: MeetingAxis,
     /// The bonds of all their faces.
     pub faces: [[Option<usize>; 4]; 2],
     /// The bond by which they meet.
@@ -82,7 +82,7 @@ impl Wiring {
             links: Vec::new(),
             by_face: std::array::from_fn(|_| vec![None; n]),
         };
-        for axis in Axis::ALL {
+        for axis in MeetingAxis::ALL {
             let used = axis.sides().map(|side| {
                 let used =
                     |glue: &usize| set.tiles.iter().any(|tile| tile.glues[side] == Some(*glue));
@@ -165,7 +165,7 @@ impl Wiring {
     }
 
     /// The groups of bonds connected by links.
-    pub fn groups(&self) -> Vec<Group> {
+    pub fn groups(&self) -> Vec<LinkedBonds> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         for Link { bonds, .. } in &self.links {
             let (mut joined, others): (Vec<_>, Vec<_>) = groups
@@ -186,7 +186,7 @@ impl Wiring {
                 false => link.map_or(0.0, |link| link.strength),
             }
         };
-        let group = |bonds: Vec<usize>| Group {
+        let group = |bonds: Vec<usize>| LinkedBonds {
             strengths: bonds
                 .iter()
                 .map(|a| bonds.iter().map(|b| strength(*a, *b)).collect())
@@ -226,7 +226,7 @@ impl Wiring {
 /// One bond per glue for glues that do not all bind equally, if each binds itself and no other one
 /// more strongly; otherwise `None`.
 fn each(
-    axis: Axis,
+    axis: MeetingAxis,
     [firsts, seconds]: &[Vec<usize>; 2],
     strengths: &[Vec<f64>],
 ) -> Option<Vec<Bond>> {
@@ -255,7 +255,7 @@ fn each(
 
 fn bond(
     set: &TileSet,
-    axis: Axis,
+    axis: MeetingAxis,
     mut glues: [Vec<usize>; 2],
     strengths: &[Vec<f64>],
 ) -> Result<Bond, String> {

@@ -35,7 +35,7 @@ use physics::potential::shielding::{Shield, ShieldRule, Shields};
 use physics::potential::{MagnetModel, Potential, ShieldedPotential};
 use physics::problem::{NoRoom, Room};
 use physics::tile::Tile;
-pub use rows::{COLUMNS, Row, read_rows};
+pub use rows::{COLUMNS, Measurement, read_rows};
 use strength::StrengthFit;
 
 options! {
@@ -302,7 +302,7 @@ const MEASURED_OVERLAP: f64 = 1e-3;
 /// If there are too few rows, or the tiles overlap at one of them.
 pub fn calibrate(
     specimen: &Specimen,
-    rows: &[Row],
+    rows: &[Measurement],
     settings: &CalibrationSettings,
 ) -> Result<Calibration, String> {
     let (fixed, moving) = (specimen.fixed, specimen.moving);
@@ -317,7 +317,7 @@ pub fn calibrate(
         }),
     };
     let strength = data.strength(&used);
-    let with_iron: Vec<&Row> = used.iter().copied().filter(|row| row.iron).collect();
+    let with_iron: Vec<&Measurement> = used.iter().copied().filter(|row| row.iron).collect();
     let residuals = |constants: &[f64; 4]| -> Vec<f64> {
         let shielded = data.shielded(&shield_of(constants));
         with_iron
@@ -355,7 +355,7 @@ pub fn calibrate(
 }
 
 /// Checks that tiles do not overlap at the poses of measurements.
-fn check_poses([fixed, moving]: [&Tile; 2], rows: &[Row]) -> Result<(), String> {
+fn check_poses([fixed, moving]: [&Tile; 2], rows: &[Measurement]) -> Result<(), String> {
     let contact = Contact::new(&fixed.outline, &moving.outline);
     for row in rows {
         let depth = -contact.clearance(&row.configuration);
@@ -377,7 +377,7 @@ const STARTING_LENGTHS: [f64; 3] = [1.0, 0.3, 3.0];
 
 /// The rows to fit and those held out: one in every `every` of those with iron and of those
 /// without.
-fn hold_out(rows: &[Row], every: usize) -> (Vec<&Row>, Vec<&Row>) {
+fn hold_out(rows: &[Measurement], every: usize) -> (Vec<&Measurement>, Vec<&Measurement>) {
     let mut counts = [0; 2];
     rows.iter().partition(|row| {
         let count = &mut counts[usize::from(row.iron)];
@@ -428,7 +428,7 @@ fn root_mean_square(values: impl Iterator<Item = f64>) -> Option<f64> {
 }
 
 /// Energy, force and torque of a model at a row's pose.
-fn predictions(potential: &ShieldedPotential, row: &Row) -> [f64; 4] {
+fn predictions(potential: &ShieldedPotential, row: &Measurement) -> [f64; 4] {
     let (energy, gradient) = potential.energy_and_gradient(&row.configuration);
     [energy, -gradient.x, -gradient.y, -gradient.z]
 }
@@ -451,7 +451,7 @@ impl Data<'_> {
         &self,
         shielded: &ShieldedPotential,
         strength: f64,
-        row: &Row,
+        row: &Measurement,
     ) -> [Option<f64>; 4] {
         let potential = if row.iron { shielded } else { self.bare };
         let predicted = predictions(potential, row);
@@ -462,7 +462,7 @@ impl Data<'_> {
     }
 
     /// The factor between measured and modelled values that fits the rows without iron best.
-    fn strength(&self, rows: &[&Row]) -> f64 {
+    fn strength(&self, rows: &[&Measurement]) -> f64 {
         let (mut product, mut square) = (0.0, 0.0);
         for row in rows.iter().filter(|row| !row.iron) {
             let predicted = predictions(self.bare, row);
@@ -482,7 +482,7 @@ impl Data<'_> {
         }
     }
 
-    fn summary(&self, shield: &Shield, strength: f64, rows: &[&Row]) -> Residuals {
+    fn summary(&self, shield: &Shield, strength: f64, rows: &[&Measurement]) -> Residuals {
         let shielded = self.shielded(shield);
         let all: Vec<[Option<f64>; 4]> = rows
             .iter()

@@ -26,7 +26,7 @@ const NEEDED: usize = 4;
 
 /// A measurement.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct Measurement {
     /// Its line in the file.
     pub line: usize,
     /// The pose at which it was taken.
@@ -42,7 +42,7 @@ pub struct Row {
 ///
 /// # Errors
 /// If the text is not a table of the given [`COLUMNS`]: what is wrong, and where.
-pub fn read_rows(text: &str) -> Result<Vec<Row>, String> {
+pub fn read_rows(text: &str) -> Result<Vec<Measurement>, String> {
     let mut records = records(text);
     let (_, header) = records.next().ok_or_else(|| {
         let known = COLUMNS.join(",");
@@ -50,7 +50,7 @@ pub fn read_rows(text: &str) -> Result<Vec<Row>, String> {
     })?;
     let columns = columns(&header)?;
     let rows = records.map(|(line, record)| row(line, &record, &columns));
-    let rows = rows.collect::<Result<Vec<Row>, _>>()?;
+    let rows = rows.collect::<Result<Vec<Measurement>, _>>()?;
     match rows.is_empty() {
         true => Err(
             "there are no rows of measurements below the line that names the columns".to_owned(),
@@ -85,7 +85,7 @@ fn columns(header: &StringRecord) -> Result<Vec<usize>, String> {
     Ok(columns)
 }
 
-fn row(line: usize, entries: &StringRecord, columns: &[usize]) -> Result<Row, String> {
+fn row(line: usize, entries: &StringRecord, columns: &[usize]) -> Result<Measurement, String> {
     let (found, expected) = (entries.len(), columns.len());
     if found != expected {
         let text = entries.iter().collect::<Vec<_>>().join(",");
@@ -117,7 +117,7 @@ fn row(line: usize, entries: &StringRecord, columns: &[usize]) -> Result<Row, St
             "line {line}: iron is `{iron}`, but must be 1 (shields in place) or 0"
         ));
     }
-    Ok(Row {
+    Ok(Measurement {
         line,
         configuration: Configuration::from([x, y, theta]),
         iron: iron == 1.0,

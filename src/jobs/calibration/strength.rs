@@ -25,7 +25,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::fit::{Fit, least_squares};
 use super::gaps::Reading;
-use super::{QUANTITIES, Row, root_mean_square};
+use super::{Measurement, QUANTITIES, root_mean_square};
 use crate::design::Design;
 use crate::inspection::out_of_bond;
 
@@ -153,7 +153,7 @@ pub fn fit(design: &Design, readings: &[Reading]) -> Result<StrengthFit, String>
 ///
 /// # Errors
 /// If there are no values.
-pub fn fit_rows(design: &Design, rows: &[Row]) -> Result<StrengthFit, String> {
+pub fn fit_rows(design: &Design, rows: &[Measurement]) -> Result<StrengthFit, String> {
     let interaction = Interaction {
         shields: Shields::default(),
         ..design.interaction.clone()
@@ -163,7 +163,9 @@ pub fn fit_rows(design: &Design, rows: &[Row]) -> Result<StrengthFit, String> {
     let closest = -distance_of_poles(design);
     let samples: Vec<Sample> = (0..QUANTITIES.len())
         .flat_map(|k| {
-            let of = move |row: &Row| row.measured[k].map(|measured| (row.configuration, measured));
+            let of = move |row: &Measurement| {
+                row.measured[k].map(|measured| (row.configuration, measured))
+            };
             let measured: Vec<_> = rows.iter().filter_map(of).collect();
             let scale = root_mean_square(measured.iter().map(|it| it.1)).unwrap_or_default();
             measured.into_iter().map(move |(pose, measured)| Sample {

@@ -97,7 +97,7 @@ pub struct Bond {
     #[serde(rename = "energy_J")]
     pub energy: f64,
     /// To `free`.
-    pub way_out: Way,
+    pub way_out: WayOut,
     /// `None` if aligned tiles do not bind.
     pub capture_range: Option<CaptureRange>,
 }
@@ -111,12 +111,12 @@ pub struct Trap {
     #[serde(rename = "energy_J")]
     pub energy: f64,
     /// To the nearest lower state or to `free`.
-    pub escape: Way,
+    pub escape: WayOut,
 }
 
 /// The best way out of a state.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Way {
+pub struct WayOut {
     /// Highest energy on the path (J); `None` if no path was found.
     #[serde(rename = "saddle_energy_J")]
     pub saddle: Option<f64>,
@@ -125,7 +125,7 @@ pub struct Way {
     pub bounds: SaddleBounds,
 }
 
-impl Way {
+impl WayOut {
     fn new(barrier: Option<&Barrier>) -> Self {
         barrier.map_or_else(Self::default, |barrier| Self {
             saddle: Some(barrier.saddle_energy).filter(|saddle| saddle.is_finite()),
@@ -265,7 +265,7 @@ impl Assessment {
             deepest_trap: catalogue.first(StateKind::Trap).map(|state| Trap {
                 pose: state.configuration.to_array(),
                 energy: state.energy,
-                escape: Way::new(analysis.escape(state.id).as_ref()),
+                escape: WayOut::new(analysis.escape(state.id).as_ref()),
             }),
             unlisted_above: analysis
                 .completeness
@@ -301,7 +301,7 @@ fn bond(analysis: &Analysis, state: &State) -> Bond {
     Bond {
         pose: q.to_array(),
         energy: state.energy,
-        way_out: Way::new(analysis.catalogue.way_out_of_the_bond()),
+        way_out: WayOut::new(analysis.catalogue.way_out_of_the_bond()),
         capture_range: capture_range::find(&analysis.problem, known, q, state.energy),
     }
 }

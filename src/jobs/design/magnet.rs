@@ -17,7 +17,7 @@ pub(super) struct MagnetKeys {
     pub strength: Option<Strength>,
     pub pitch: Option<f64>,
     pub inset: Option<f64>,
-    pub axis: Option<Axis>,
+    pub axis: Option<AxisDirection>,
 }
 
 /// The size of a magnet (m).
@@ -31,7 +31,7 @@ pub(super) enum Size {
 
 /// The direction of a magnet's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Axis {
+pub(super) enum AxisDirection {
     /// At this angle (rad) from the face's normal.
     Lying(f64),
     /// Out of the tiles' plane.
@@ -71,8 +71,10 @@ impl MagnetKeys {
         let [pitch, inset] = [("pitch", quantity::PITCH), ("inset", quantity::INSET)]
             .map(|(key, quantity)| section.number(key, quantity));
         let axis = section.get("axis").map(|entry| match entry.text() {
-            Some(text) if text.starts_with(char::is_alphabetic) => entry.word(&[("up", Axis::Up)]),
-            _ => entry.number(quantity::AXIS).map(Axis::Lying),
+            Some(text) if text.starts_with(char::is_alphabetic) => {
+                entry.word(&[("up", AxisDirection::Up)])
+            }
+            _ => entry.number(quantity::AXIS).map(AxisDirection::Lying),
         });
         let axis = axis.transpose();
         Ok(Self {
@@ -99,8 +101,8 @@ impl MagnetKeys {
     pub fn mate(self) -> Self {
         Self {
             axis: self.axis.map(|axis| match axis {
-                Axis::Lying(angle) => Axis::Lying(-angle),
-                Axis::Up => Axis::Up,
+                AxisDirection::Lying(angle) => AxisDirection::Lying(-angle),
+                AxisDirection::Up => AxisDirection::Up,
             }),
             ..self
         }

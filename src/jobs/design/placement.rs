@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use super::error::Result;
 use super::face::{FaceContent, Pattern};
-use super::magnet::{Axis, ListedMagnet, impossible, missing_key};
+use super::magnet::{AxisDirection, ListedMagnet, impossible, missing_key};
 use super::quantity::four_digits;
 use super::tile::TileEntry;
 use physics::configuration::wrap_angle;
@@ -98,7 +98,7 @@ pub(super) fn magnet(
     };
     let stands = standing(listed).map_err(|(message, help)| error(message, help))?;
     let axis = match listed.keys.axis {
-        Some(Axis::Lying(angle)) => angle,
+        Some(AxisDirection::Lying(angle)) => angle,
         _ => 0.0,
     };
     let size = body.in_plane(stands.is_some());
@@ -124,7 +124,7 @@ pub(super) fn magnet(
 
 /// Whether a magnet's axis points up, or what is wrong with its pole.
 fn standing(listed: &ListedMagnet) -> std::result::Result<Option<Standing>, (String, String)> {
-    let up = listed.keys.axis == Some(Axis::Up);
+    let up = listed.keys.axis == Some(AxisDirection::Up);
     let letter = listed.pole.letter();
     match (listed.pole, up) {
         (Pole::Up, true) => Ok(Some(Standing::Up)),

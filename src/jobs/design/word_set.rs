@@ -20,7 +20,7 @@ use super::drawings::Drawings;
 use super::error::{DesignError, Result};
 use super::face::not_placed_twice;
 use super::faults::Faults;
-use super::magnet::{Axis, MAGNET_KEYS, MagnetKeys, missing_key};
+use super::magnet::{AxisDirection, MAGNET_KEYS, MagnetKeys, missing_key};
 use super::reader::{Entry, Section};
 use super::source::Source;
 use super::{Design, MagnetModel, file, potential, quantity, syntax, word_places, word_stage};
@@ -101,7 +101,7 @@ impl WordSet {
         let magnet = root.section("magnet", "[magnet]")?.map(|section| {
             section.allow(&MAGNET_KEYS);
             let keys = MagnetKeys::read(&section)?;
-            if let (Some(Axis::Lying(_)), Some(entry)) = (keys.axis, section.get("axis")) {
+            if let (Some(AxisDirection::Lying(_)), Some(entry)) = (keys.axis, section.get("axis")) {
                 let help = "the magnets of words are square to their face, or have axis = \"up\"";
                 return Err(entry.key_error("the magnets of words are not turned", help));
             }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::error::{DesignError, Result};
-use super::magnet::{Axis, MagnetKeys, Size};
+use super::magnet::{AxisDirection, MagnetKeys, Size};
 use super::{Design, MagnetModel, written};
 use physics::tile::Tile;
 use physics::tile::magnet::{Form, Standing};
@@ -19,7 +19,7 @@ pub(super) fn bar(keys: MagnetKeys, model: MagnetModel) -> std::result::Result<B
         ..keys
     };
     let body = keys.body()?;
-    let stands = (keys.axis == Some(Axis::Up)).then_some(Standing::Up);
+    let stands = (keys.axis == Some(AxisDirection::Up)).then_some(Standing::Up);
     Ok(Bar {
         size: body.in_plane(stands.is_some()),
         moment: body.moment,

@@ -14,7 +14,7 @@ use physics::landscape::capture::FarStarts;
 use physics::landscape::exploration::Exploration;
 use physics::landscape::minimax::End;
 use physics::landscape::minimum::descend;
-use physics::landscape::pathway::{self, Limits};
+use physics::landscape::pathway::{self, PathLimits};
 use physics::landscape::{Pathway, capture, highest_point};
 use physics::observer::{Observer, Silent};
 use physics::order::Order;
@@ -104,7 +104,7 @@ impl<'a> PathSearch<'a> {
         let proved = pathway::of_configurations(self.problem, proved, BEND * depth);
         let highest = highest_point(&proved).map_or(f64::INFINITY, |point| point.energy);
         let proved: Vec<Configuration> = proved.iter().map(|p| p.configuration).collect();
-        let limits = Limits::below(highest + 1e-9 * depth, self.problem);
+        let limits = PathLimits::below(highest + 1e-9 * depth, self.problem);
         let proved = pathway::shortened(self.problem, &proved, &limits);
         let proved = pathway::of_configurations(self.problem, &proved, BEND * depth);
         let points: Vec<Point> = proved

@@ -8,7 +8,7 @@ use crate::design::Design;
 use physics::kinetics::population::chain::Chain;
 use physics::kinetics::rates::map::Map;
 use physics::kinetics::rates::{RateSettings, Rates, rates};
-use physics::kinetics::{Way, bond::corner};
+use physics::kinetics::{PathToFree, bond::corner};
 use physics::parallel;
 use physics::problem::Problem;
 
@@ -124,7 +124,7 @@ impl StateRates {
     /// A share of time spent in or around a place, if known: a basin without a path may lie between
     /// contacts where the mesh has no cell.
     pub fn known_share(&self, place: usize, part: f64) -> Option<f64> {
-        let is_known = place == self.states.len() || self.found.ways[place] != Way::Lost;
+        let is_known = place == self.states.len() || self.found.ways[place] != PathToFree::Lost;
         is_known.then_some(part)
     }
 

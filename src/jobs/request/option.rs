@@ -36,16 +36,16 @@ pub trait Options: Sized {
     ///
     /// # Errors
     /// If a text is no value of its option, or one is missing.
-    fn fill(form: &mut Form) -> Result<Self, Misused>;
+    fn fill(form: &mut RequestForm) -> Result<Self, Misused>;
 
     /// The request, with defaults for what is not given.
     ///
     /// # Errors
     /// If a text is no value of its option, or one is missing.
     fn read(given: Given) -> Result<Self, Misused> {
-        let form = Form {
+        let form = RequestForm {
             given,
-            ..Form::default()
+            ..RequestForm::default()
         };
         Self::fill(&mut { form })
     }
@@ -60,7 +60,7 @@ pub trait Options: Sized {
 
     /// The options, in the order of the help.
     fn table() -> Vec<Entry> {
-        let mut form = Form::default();
+        let mut form = RequestForm::default();
         // Nothing is given: what is required is missing.
         let _ = Self::fill(&mut form);
         form.table
@@ -69,7 +69,7 @@ pub trait Options: Sized {
 
 /// What is given for options, and what is known of those whose fields were read.
 #[derive(Default)]
-pub struct Form {
+pub struct RequestForm {
     given: Given,
     table: Vec<Entry>,
     /// The name and comment of the next field.
@@ -77,7 +77,7 @@ pub struct Form {
     comment: String,
 }
 
-impl Form {
+impl RequestForm {
     /// At a field of this name and comment: a paragraph is a line of the help, with empty lines
     /// between them. Attributes are `None`.
     pub fn at(&mut self, field: &'static str, comment: &[Option<&str>]) -> &mut Self {
@@ -169,7 +169,7 @@ impl Reader for Entry {
 }
 
 /// A field of a request that holds the values of an option.
-pub trait Field<T>: Sized {
+pub trait OptionField<T>: Sized {
     /// Whether it holds all values, not only one.
     const HOLDS_ALL: bool = false;
 
@@ -177,19 +177,19 @@ pub trait Field<T>: Sized {
     fn of(values: Vec<T>) -> Option<Self>;
 }
 
-impl<T> Field<T> for T {
+impl<T> OptionField<T> for T {
     fn of(mut values: Vec<T>) -> Option<T> {
         values.pop()
     }
 }
 
-impl<T> Field<T> for Option<T> {
+impl<T> OptionField<T> for Option<T> {
     fn of(mut values: Vec<T>) -> Option<Self> {
         Some(values.pop())
     }
 }
 
-impl<T> Field<T> for Vec<T> {
+impl<T> OptionField<T> for Vec<T> {
     const HOLDS_ALL: bool = true;
 
     fn of(values: Vec<T>) -> Option<Self> {
@@ -197,7 +197,7 @@ impl<T> Field<T> for Vec<T> {
     }
 }
 
-impl Field<()> for bool {
+impl OptionField<()> for bool {
     fn of(values: Vec<()>) -> Option<Self> {
         Some(!values.is_empty())
     }
@@ -283,7 +283,7 @@ impl<T: 'static> Value<T> {
     ///
     /// # Errors
     /// If a text is no value, or one is missing.
-    pub fn field<F: Field<T>>(self, form: &mut Form) -> Result<F, Misused> {
+    pub fn field<F: OptionField<T>>(self, form: &mut RequestForm) -> Result<F, Misused> {
         let Self { mut entry, reader } = self;
         if entry.name.is_empty() {
             entry.name = form.field;
@@ -308,14 +308,14 @@ impl<T: 'static> Value<T> {
 
 /// The options of another request.
 #[derive(Default)]
-pub struct Group(Option<[&'static str; 2]>);
+pub struct OptionGroup(Option<[&'static str; 2]>);
 
 /// The options of another request.
-pub fn group() -> Group {
-    Group::default()
+pub fn group() -> OptionGroup {
+    OptionGroup::default()
 }
 
-impl Group {
+impl OptionGroup {
     /// With other help for one of them.
     pub fn helped(self, name: &'static str, help: &'static str) -> Self {
         Self(Some([name, help]))
@@ -325,7 +325,7 @@ impl Group {
     ///
     /// # Errors
     /// See [`Options::fill`].
-    pub fn field<G: Options>(self, form: &mut Form) -> Result<G, Misused> {
+    pub fn field<G: Options>(self, form: &mut RequestForm) -> Result<G, Misused> {
         let found = G::fill(form);
         if let Some([name, help]) = self.0 {
             let helped = form.table.iter_mut().filter(|it| it.name == name);
@@ -343,7 +343,7 @@ impl<F> Fixed<F> {
     ///
     /// # Errors
     /// None.
-    pub fn field(self, _: &mut Form) -> Result<F, Misused> {
+    pub fn field(self, _: &mut RequestForm) -> Result<F, Misused> {
         Ok(self.0)
     }
 }
@@ -360,7 +360,7 @@ macro_rules! options {
 
         impl $crate::request::Options for $Request {
             fn fill(
-                form: &mut $crate::request::option::Form,
+                form: &mut $crate::request::option::RequestForm,
             ) -> Result<Self, $crate::request::Misused> {
                 #[allow(unused_imports)]
                 use $crate::request::option::{Fixed, comment, flag, group, value};

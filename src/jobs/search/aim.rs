@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::interval::Interval;
+use super::interval::FigureBounds;
 use crate::comparison::quantity::{Measure, QUANTITIES};
 use crate::comparison::{Assessment, Quantity};
 use crate::design;
@@ -146,8 +146,8 @@ impl Objective {
     ///
     /// # Errors
     /// The reason why there is no such figure.
-    pub fn gain(&self, design: &Assessment) -> Result<Interval, &'static str> {
-        let interval = Interval::of(self.quantity(), design)?;
+    pub fn gain(&self, design: &Assessment) -> Result<FigureBounds, &'static str> {
+        let interval = FigureBounds::of(self.quantity(), design)?;
         Ok(match self.largest {
             true => interval,
             false => interval.negated(),
@@ -241,7 +241,7 @@ impl Condition {
     /// # Errors
     /// The reason why the design has no such figure.
     pub fn violation(&self, design: &Assessment) -> Result<f64, &'static str> {
-        Ok(self.violation_of(Interval::of(self.quantity(), design)?.value))
+        Ok(self.violation_of(FigureBounds::of(self.quantity(), design)?.value))
     }
 
     /// The same for a value of the figure.
@@ -258,7 +258,7 @@ impl Condition {
     /// # Errors
     /// As [`Condition::violation`].
     pub fn margin(&self, design: &Assessment) -> Result<f64, &'static str> {
-        let value = Interval::of(self.quantity(), design)?.value;
+        let value = FigureBounds::of(self.quantity(), design)?.value;
         let above = (value - self.value) / self.scale();
         Ok(if self.above { above } else { -above })
     }
@@ -280,7 +280,7 @@ impl Condition {
 
     /// Whether the bounds prove that the condition holds, or that it does not; `None` if neither.
     pub fn is_proved(&self, design: &Assessment) -> Option<bool> {
-        let Interval { low, high, .. } = Interval::of(self.quantity(), design).ok()?;
+        let FigureBounds { low, high, .. } = FigureBounds::of(self.quantity(), design).ok()?;
         match (self.admits(low), self.admits(high)) {
             (true, true) => Some(true),
             (false, false) => Some(false),

@@ -5,7 +5,7 @@ use crate::comparison::{Assessment, Quantity};
 
 /// A figure with its bounds (SI); infinite where nothing is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
+pub struct FigureBounds {
     /// The figure.
     pub value: f64,
     /// Lower bound.
@@ -14,7 +14,7 @@ pub struct Interval {
     pub high: f64,
 }
 
-impl Interval {
+impl FigureBounds {
     /// The bounds of a figure.
     ///
     /// - The depth of the bond is computed in double precision at its minimum: both bounds.

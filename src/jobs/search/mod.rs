@@ -50,7 +50,7 @@ mod tried;
 mod verdict;
 
 pub use aim::{Aim, Condition, Objective, Request};
-pub use interval::Interval;
+pub use interval::FigureBounds;
 pub use manifest::{Search, Stage};
 pub use rank::{Figures, Standing};
 pub use sensitivity::{Direction, Effect};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::space::{Place, Space};
+use super::space::{GridPoint, Space};
 
 /// Correlation lengths that are tried along each dimension, relative to its range.
 const LENGTHS: [f64; 6] = [0.06, 0.12, 0.25, 0.5, 1.0, 2.0];
@@ -15,7 +15,7 @@ const SWEEPS: usize = 2;
 /// result are the same on every processor.
 pub struct Model<'a> {
     space: &'a Space,
-    places: Vec<&'a Place>,
+    places: Vec<&'a GridPoint>,
     /// One over the squared correlation length along each dimension.
     weights: Vec<f64>,
     /// The lower triangle of Cholesky's factor, row by row.
@@ -28,7 +28,7 @@ pub struct Model<'a> {
 
 impl<'a> Model<'a> {
     /// The process with the most likely correlation lengths.
-    pub fn fitted(space: &'a Space, places: Vec<&'a Place>, values: &[f64]) -> Self {
+    pub fn fitted(space: &'a Space, places: Vec<&'a GridPoint>, values: &[f64]) -> Self {
         let mut weights = vec![1.0 / (0.5 * 0.5); space.dimensions.len()];
         for _ in 0..SWEEPS {
             for k in 0..weights.len() {
@@ -46,7 +46,7 @@ impl<'a> Model<'a> {
         Self::new(space, &places, &weights, values)
     }
 
-    fn new(space: &'a Space, places: &[&'a Place], weights: &[f64], values: &[f64]) -> Self {
+    fn new(space: &'a Space, places: &[&'a GridPoint], weights: &[f64], values: &[f64]) -> Self {
         let mut model = Self {
             space,
             places: places.to_vec(),
@@ -74,7 +74,7 @@ impl<'a> Model<'a> {
     }
 
     /// Matern's covariance of order 5/2.
-    fn covariance(&self, a: &Place, b: &Place) -> f64 {
+    fn covariance(&self, a: &GridPoint, b: &GridPoint) -> f64 {
         let parts = self.space.differences(a, b).zip(&self.weights);
         let square: f64 = parts.map(|(difference, weight)| weight * difference).sum();
         let r = libm::sqrt(5.0 * square);
@@ -114,7 +114,7 @@ impl<'a> Model<'a> {
     }
 
     /// The expected value at a place, and its standard deviation.
-    pub fn predict(&self, place: &Place) -> (f64, f64) {
+    pub fn predict(&self, place: &GridPoint) -> (f64, f64) {
         let known = self.places.iter().map(|one| self.covariance(one, place));
         let known: Vec<f64> = known.collect();
         let mean: f64 = known.iter().zip(&self.solved).map(|(a, b)| a * b).sum();
@@ -124,7 +124,7 @@ impl<'a> Model<'a> {
     }
 
     /// By how much a place is expected to exceed a value.
-    pub fn improvement(&self, place: &Place, best: f64) -> f64 {
+    pub fn improvement(&self, place: &GridPoint, best: f64) -> f64 {
         let (mean, deviation) = self.predict(place);
         if deviation <= 0.0 {
             return (mean - best).max(0.0);
@@ -136,7 +136,7 @@ impl<'a> Model<'a> {
     }
 
     /// The chance that the value at a place is above 0.
-    pub fn chance(&self, place: &Place) -> f64 {
+    pub fn chance(&self, place: &GridPoint) -> f64 {
         let (mean, deviation) = self.predict(place);
         0.5 * libm::erfc(-mean / (deviation.max(1e-12) * libm::sqrt(2.0)))
     }
@@ -144,7 +144,7 @@ impl<'a> Model<'a> {
     /// The same process with another place, at which the value is as expected: the next place is
     /// then sought elsewhere.
     #[must_use]
-    pub fn with(&self, place: &'a Place, values: &mut Vec<f64>) -> Self {
+    pub fn with(&self, place: &'a GridPoint, values: &mut Vec<f64>) -> Self {
         values.push(self.predict(place).0);
         let places = [&self.places[..], &[place]].concat();
         Self::new(self.space, &places, &self.weights, values)

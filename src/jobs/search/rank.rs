@@ -1,7 +1,7 @@
 //! The order of tried points, in which every failure has its place.
 
 use super::aim::Aim;
-use super::interval::Interval;
+use super::interval::FigureBounds;
 use super::tried::Tried;
 use crate::sweep::Outcome;
 use physics::order::Order;
@@ -46,7 +46,7 @@ pub enum Standing {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figures {
     /// Those of the objectives: more is better.
-    pub gains: Vec<Interval>,
+    pub gains: Vec<FigureBounds>,
     /// The depth of the bond (J), which decides between equals.
     pub depth: f64,
 }
@@ -137,7 +137,7 @@ impl Standing {
     }
 
     /// The gains of a point that is fit.
-    pub fn gains(&self) -> Option<&[Interval]> {
+    pub fn gains(&self) -> Option<&[FigureBounds]> {
         match self {
             Self::Fit { figures, .. } => Some(&figures.gains),
             Self::Unfit { .. } | Self::Impossible => None,
@@ -236,7 +236,7 @@ mod tests {
     use super::*;
 
     fn fit(value: f64) -> Standing {
-        let gain = Interval {
+        let gain = FigureBounds {
             value,
             low: value,
             high: value,

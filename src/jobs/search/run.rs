@@ -11,7 +11,7 @@ use super::manifest::{Search, Stage};
 use super::model::Model;
 use super::race;
 use super::rank::{self, Figures, Standing, levels, scores, weighted};
-use super::space::{Place, Space};
+use super::space::{GridPoint, Space};
 use super::tried::{SearchError, SearchResult, Tried};
 use crate::sweep::{Outcome, Plan, PlanError, SweepPoint};
 use physics::order::Order;
@@ -80,7 +80,7 @@ struct Course<'a> {
     space: Space,
     random: ChaCha8Rng,
     tried: Vec<Tried>,
-    known: HashSet<Place>,
+    known: HashSet<GridPoint>,
     analysed: usize,
     refused: usize,
     reach: f64,
@@ -92,7 +92,7 @@ struct Course<'a> {
 }
 
 /// Points that are analysed at the same time, with their places.
-type Round = Vec<(SweepPoint, Place)>;
+type Round = Vec<(SweepPoint, GridPoint)>;
 
 impl<'a> Course<'a> {
     fn new(search: &'a Search) -> Self {
@@ -174,7 +174,7 @@ impl<'a> Course<'a> {
 
     /// The points to be analysed among new places, at most `most`; impossible ones, and those that
     /// energies refuse, are noted.
-    fn admitted(&mut self, places: impl IntoIterator<Item = Place>, most: usize) -> Round {
+    fn admitted(&mut self, places: impl IntoIterator<Item = GridPoint>, most: usize) -> Round {
         let mut round = Vec::new();
         for place in places {
             if round.len() == most {
@@ -185,7 +185,7 @@ impl<'a> Course<'a> {
         round
     }
 
-    fn admit(&mut self, place: Place) -> Option<(SweepPoint, Place)> {
+    fn admit(&mut self, place: GridPoint) -> Option<(SweepPoint, GridPoint)> {
         if !self.known.insert(place.clone()) {
             // Counted, so that a search among few possible designs ends.
             self.refused += 1;
@@ -250,7 +250,7 @@ impl<'a> Course<'a> {
         let count = usual.clamp(ROUNDS[0], ROUNDS[1]).min(left);
         let mut round: Round = Vec::new();
         while round.len() < count && self.may_go_on() {
-            let waiting: Vec<Place> = round.iter().map(|(_, place)| place.clone()).collect();
+            let waiting: Vec<GridPoint> = round.iter().map(|(_, place)| place.clone()).collect();
             let is_near = round.len() % 2 == 1;
             let Some(place) = self.most_promising(&waiting, is_near) else {
                 self.refused += 1;
@@ -263,7 +263,7 @@ impl<'a> Course<'a> {
 
     /// The place with the largest expected improvement times the chance that it is fit, while others
     /// wait for their results.
-    fn most_promising(&mut self, waiting: &[Place], is_near: bool) -> Option<Place> {
+    fn most_promising(&mut self, waiting: &[GridPoint], is_near: bool) -> Option<GridPoint> {
         let weights = match self.search.aim.objectives.len() {
             1 => vec![1.0],
             _ => {
@@ -277,7 +277,7 @@ impl<'a> Course<'a> {
         order.order_by(|&a, &b| levels[b].total_cmp(&levels[a]));
         order.truncate(FOLLOWED);
         let centre = &self.tried[*order.first()?].place;
-        let mut places: Vec<Place> = Vec::new();
+        let mut places: Vec<GridPoint> = Vec::new();
         if !is_near {
             places.extend((0..ANYWHERE).map(|_| self.space.anywhere(&mut self.random)));
         }
@@ -314,16 +314,16 @@ impl<'a> Course<'a> {
         let margins: Vec<f64> = judged.iter().map(|&k| standings[k].margin()).collect();
         let is_free = margins.iter().all(|margin| *margin == 1.0);
         let margin = (!is_free).then(|| model(judged, margins));
-        let away = |k: usize, place: &Place| {
+        let away = |k: usize, place: &GridPoint| {
             self.space
                 .differences(&self.tried[k].place, place)
                 .sum::<f64>()
         };
-        let is_possible = |place: &Place| {
+        let is_possible = |place: &GridPoint| {
             let nearest = (0..standings.len()).min_by_key(|&k| OrderedFloat(away(k, place)));
             nearest.is_none_or(|k| standings[k] != Standing::Impossible)
         };
-        let promise = |place: &Place| {
+        let promise = |place: &GridPoint| {
             if !is_possible(place) {
                 return 0.0;
             }
@@ -334,7 +334,7 @@ impl<'a> Course<'a> {
                 _ => chance,
             }
         };
-        let mut most: Option<(f64, &Place)> = None;
+        let mut most: Option<(f64, &GridPoint)> = None;
         for place in places.iter().filter(|place| !self.known.contains(*place)) {
             let promise = promise(place);
             if most.is_none_or(|(known, _)| promise > known) {
@@ -344,7 +344,7 @@ impl<'a> Course<'a> {
         most.map(|(_, place)| place.clone())
     }
 
-    fn best_place(&self) -> Option<Place> {
+    fn best_place(&self) -> Option<GridPoint> {
         let is_best = |one: &&Tried| Some(one.point.index) == self.best;
         self.tried.iter().find(is_best).map(|one| one.place.clone())
     }
@@ -357,7 +357,7 @@ impl<'a> Course<'a> {
         (self.about, self.is_crossed) = (self.best, false);
         let numbers = self.space.numbers();
         let places = numbers.flat_map(|k| self.space.beside(&best, &[k]));
-        let places: Vec<Place> = places.collect();
+        let places: Vec<GridPoint> = places.collect();
         let round = self.admitted(places, self.search.aim.points - self.analysed);
         // All steps may be known, or impossible.
         if round.is_empty() {
@@ -384,7 +384,7 @@ impl<'a> Course<'a> {
             let around = |pair: &[usize; 2]| self.space.beside(&best, pair);
             matter.iter().flat_map(around).collect::<Vec<_>>()
         });
-        let places: Vec<Place> = places.collect();
+        let places: Vec<GridPoint> = places.collect();
         self.admitted(places, left)
     }
 

@@ -1,7 +1,7 @@
 //! What changes the best point: each key by itself, and two keys together.
 
 use super::manifest::Search;
-use super::space::{Place, Space};
+use super::space::{GridPoint, Space};
 use super::tried::SearchResult;
 
 /// The relative change of the objective by a step below which the step does not matter.
@@ -81,7 +81,7 @@ impl<'a> About<'a> {
         })
     }
 
-    fn place(&self) -> &Place {
+    fn place(&self) -> &GridPoint {
         &self.found.tried[self.best].place
     }
 

@@ -13,7 +13,7 @@ const STEP: f64 = 0.05;
 const HYPERCUBES: usize = 24;
 
 /// A place: the level along each dimension.
-pub type Place = Vec<usize>;
+pub type GridPoint = Vec<usize>;
 
 /// A varied key, or the choice among designs.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,7 +95,7 @@ impl Space {
     }
 
     /// The design and the values of all axes at a place.
-    pub fn values(&self, plan: &Plan, place: &Place) -> (usize, Vec<Value>) {
+    pub fn values(&self, plan: &Plan, place: &GridPoint) -> (usize, Vec<Value>) {
         let mut values: Vec<Value> = plan
             .axes
             .iter()
@@ -118,11 +118,11 @@ impl Space {
     }
 
     /// All places, in order.
-    pub fn all(&self) -> Vec<Place> {
+    pub fn all(&self) -> Vec<GridPoint> {
         self.dimensions
             .iter()
             .fold(vec![Vec::new()], |places, one| {
-                let longer = |place: &Place| {
+                let longer = |place: &GridPoint| {
                     let place = place.clone();
                     (0..one.levels).map(move |level| [&place[..], &[level]].concat())
                 };
@@ -132,7 +132,11 @@ impl Space {
 
     /// The squared distance of two places: along numbers relative to their whole range, 1 between
     /// different words.
-    pub fn differences<'a>(&'a self, a: &'a Place, b: &'a Place) -> impl Iterator<Item = f64> + 'a {
+    pub fn differences<'a>(
+        &'a self,
+        a: &'a GridPoint,
+        b: &'a GridPoint,
+    ) -> impl Iterator<Item = f64> + 'a {
         let all = self.dimensions.iter().zip(a.iter().zip(b));
         all.map(|(one, (&a, &b))| match one.is_ordered {
             true => {
@@ -144,7 +148,7 @@ impl Space {
     }
 
     /// Places spread over the space: along each dimension in as many equal parts, one in each.
-    pub fn spread(&self, count: usize, random: &mut ChaCha8Rng) -> Vec<Place> {
+    pub fn spread(&self, count: usize, random: &mut ChaCha8Rng) -> Vec<GridPoint> {
         let cube = |random: &mut ChaCha8Rng| {
             let columns = self.dimensions.iter().map(|dimension| {
                 let mut parts: Vec<usize> = (0..count).collect();
@@ -159,9 +163,9 @@ impl Space {
             let columns: Vec<Vec<usize>> = columns.collect();
             (0..count)
                 .map(|k| columns.iter().map(|column| column[k]).collect())
-                .collect::<Vec<Place>>()
+                .collect::<Vec<GridPoint>>()
         };
-        let narrowest = |places: &[Place]| {
+        let narrowest = |places: &[GridPoint]| {
             let pairs = places.iter().enumerate();
             let pairs = pairs.flat_map(|(k, a)| places[..k].iter().map(move |b| (a, b)));
             let distances = pairs.map(|(a, b)| self.differences(a, b).sum::<f64>());
@@ -180,7 +184,7 @@ impl Space {
     }
 
     /// A place anywhere.
-    pub fn anywhere(&self, random: &mut ChaCha8Rng) -> Place {
+    pub fn anywhere(&self, random: &mut ChaCha8Rng) -> GridPoint {
         let levels = self.dimensions.iter();
         levels
             .map(|one| random.random_range(0..one.levels))
@@ -188,7 +192,7 @@ impl Space {
     }
 
     /// A place within `reach` of the range of each number; along a word another one now and then.
-    pub fn near(&self, place: &Place, reach: f64, random: &mut ChaCha8Rng) -> Place {
+    pub fn near(&self, place: &GridPoint, reach: f64, random: &mut ChaCha8Rng) -> GridPoint {
         let levels = self.dimensions.iter().zip(place);
         levels
             .map(|(one, &level)| {
@@ -236,11 +240,11 @@ impl Space {
 
     /// The places one step beside a place along these dimensions at once, to all combinations of sides
     /// that are within the ranges.
-    pub fn beside(&self, place: &Place, dimensions: &[usize]) -> Vec<Place> {
-        let both_ways = |places: Vec<Place>, &k: &usize| {
+    pub fn beside(&self, place: &GridPoint, dimensions: &[usize]) -> Vec<GridPoint> {
+        let both_ways = |places: Vec<GridPoint>, &k: &usize| {
             let most = self.dimensions[k].levels - 1;
             let step = self.step(k);
-            let moved = |one: &Place| {
+            let moved = |one: &GridPoint| {
                 let sides = [one[k].checked_sub(step), Some(one[k] + step)];
                 let levels = sides.into_iter().flatten().filter(|to| *to <= most);
                 let moved = levels.map(|level| {

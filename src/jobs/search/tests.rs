@@ -6,7 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::*;
-use crate::comparison::{self, Assessment, Bond, Trap, Way};
+use crate::comparison::{self, Assessment, Bond, Trap, WayOut};
 use crate::sweep::{Axis, DesignSource, Outcome, Plan, PlanError, SweepPoint};
 use physics::landscape::SaddleBounds;
 
@@ -42,13 +42,13 @@ fn design(bond: f64, trap: f64, captured: usize) -> Assessment {
         bond: Some(Bond {
             pose: [0.0; 3],
             energy: -bond,
-            way_out: Way::default(),
+            way_out: WayOut::default(),
             capture_range: None,
         }),
         deepest_trap: Some(Trap {
             pose: [0.0; 3],
             energy: -trap,
-            escape: Way::default(),
+            escape: WayOut::default(),
         }),
         far_starts: 100,
         captured,

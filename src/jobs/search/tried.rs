@@ -1,6 +1,6 @@
 //! The points that a search tried.
 
-use super::space::Place;
+use super::space::GridPoint;
 use crate::sweep::{Outcome, PlanError, SweepPoint};
 
 /// A point that was tried.
@@ -9,7 +9,7 @@ pub struct Tried {
     /// As analysed without proofs.
     pub point: SweepPoint,
     /// Its place in the space.
-    pub place: Place,
+    pub place: GridPoint,
     /// What came of it without proofs.
     pub outcome: Outcome,
     /// By how much it violates a condition, if energies alone say so: it was not analysed, and its

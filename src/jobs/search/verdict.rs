@@ -1,6 +1,6 @@
 //! The answer of a search: the best point, and how far that is proved.
 
-use super::interval::Interval;
+use super::interval::FigureBounds;
 use super::manifest::Search;
 use super::rank::{Standing, levels};
 use super::tried::SearchResult;
@@ -86,7 +86,7 @@ impl SearchResult {
     pub fn verdicts(&self, search: &Search) -> Vec<Verdict> {
         let standings = self.standings(search);
         let front = self.front(search);
-        let is_worse = |own: &[Interval]| {
+        let is_worse = |own: &[FigureBounds]| {
             front.iter().any(|&best| {
                 let gains = standings[best].gains().unwrap_or_default();
                 let mut pairs = own.iter().zip(gains);

@@ -129,7 +129,7 @@ fn scores(plan: &Plan, outcomes: &[Outcome], which: usize, order: &[usize], x: &
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::comparison::{Bond, Thoroughness, Way};
+    use crate::comparison::{Bond, Thoroughness, WayOut};
 
     /// A sweep over depth, with the bond's depth as a given function of it.
     fn plan(values: &str, depth: impl Fn(f64) -> f64) -> (Plan, Vec<Outcome>) {
@@ -147,7 +147,7 @@ mod tests {
                 bond: Some(Bond {
                     pose: [0.0; 3],
                     energy: -depth(x),
-                    way_out: Way::default(),
+                    way_out: WayOut::default(),
                     capture_range: None,
                 }),
                 ..Assessment::default()

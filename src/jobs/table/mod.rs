@@ -19,7 +19,7 @@ pub use ensemble::{Ensemble, PART};
 pub use goal::Wanted;
 pub use request::Request;
 pub use start_file::{StartFileError, read as read_start};
-pub use statistics::{Built, EndOfTable, Interval, Lifetime, Moment, Statistics};
+pub use statistics::{Built, EndOfTable, Lifetime, MeanInterval, Moment, Statistics};
 pub use subject::About;
 pub use target::Target;
 pub use workload::Workload;

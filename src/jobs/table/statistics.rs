@@ -13,7 +13,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// A mean over runs with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Interval {
+pub struct MeanInterval {
     /// The mean.
     pub mean: f64,
     /// The standard deviation of single runs; `None` for one run.
@@ -24,7 +24,7 @@ pub struct Interval {
     pub high: Option<f64>,
 }
 
-impl Interval {
+impl MeanInterval {
     /// Computed from counts, one a run, by Student's t or, if that is wider, from how rarely the
     /// counts differ from their median: runs that agree do not prove that all do.
     pub fn of(counts: &[usize]) -> Self {
@@ -140,7 +140,7 @@ pub struct Built {
     /// The number of tiles.
     pub size: usize,
     /// How many there are in a run.
-    pub count: Interval,
+    pub count: MeanInterval,
     /// The share of their possible bonds that are closed.
     pub closed: f64,
     /// Holes in each, mean.
@@ -153,26 +153,26 @@ pub struct Moment {
     /// Since the start (s).
     pub time: f64,
     /// Bonds.
-    pub bonds: Interval,
+    pub bonds: MeanInterval,
     /// Traps.
-    pub traps: Interval,
+    pub traps: MeanInterval,
     /// Tiles of the largest cluster.
-    pub largest: Interval,
+    pub largest: MeanInterval,
     /// Tiles in structures that are the goal.
-    pub in_target: Interval,
+    pub in_target: MeanInterval,
 }
 
 /// Statistics over the runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statistics {
     /// Bonds at the end.
-    pub bonds: Interval,
+    pub bonds: MeanInterval,
     /// Traps at the end.
-    pub traps: Interval,
+    pub traps: MeanInterval,
     /// Held contacts at the end that are neither.
-    pub contacts: Interval,
+    pub contacts: MeanInterval,
     /// Tiles in traps at the end.
-    pub trapped: Interval,
+    pub trapped: MeanInterval,
     /// Structures at the end, by kind and size.
     pub structures: Vec<Built>,
     /// Sizes of clusters at the end with their mean count per run.
@@ -206,7 +206,7 @@ impl Statistics {
     pub fn of(runs: &[Run], settings: &TableSettings) -> Self {
         let at_end = |tie: Tie| {
             let count = |run: &Run| run.samples.last().map_or(0, |last| last.count(tie));
-            Interval::of(&runs.iter().map(count).collect::<Vec<_>>())
+            MeanInterval::of(&runs.iter().map(count).collect::<Vec<_>>())
         };
         let kinetic = runs.iter().map(|run| run.kinetic).sum::<f64>() / runs.len() as f64;
         let kinetic_kt = settings.shaking.map(|kt| kinetic / kt);
@@ -221,7 +221,7 @@ impl Statistics {
             bonds: at_end(Tie::Bond),
             traps: at_end(Tie::Trap),
             contacts: at_end(Tie::Contact),
-            trapped: Interval::of(&runs.iter().map(in_traps).collect::<Vec<_>>()),
+            trapped: MeanInterval::of(&runs.iter().map(in_traps).collect::<Vec<_>>()),
             structures: structures(runs),
             clusters: clusters(runs),
             moments: moments(runs),
@@ -305,7 +305,7 @@ fn structures(runs: &[Run]) -> Vec<Built> {
         Built {
             shape,
             size,
-            count: Interval::of(&counts).up_to(tiles / size),
+            count: MeanInterval::of(&counts).up_to(tiles / size),
             closed: mean(|it| it.bonds as f64 / it.possible as f64),
             holes: mean(|it| it.holes as f64),
         }
@@ -321,7 +321,7 @@ fn moments(runs: &[Run]) -> Vec<Moment> {
     (0..count)
         .map(|k| {
             let of = |get: &dyn Fn(&physics::table::Sample) -> usize| {
-                Interval::of(
+                MeanInterval::of(
                     &runs
                         .iter()
                         .map(|run| get(&run.samples[k]))
@@ -380,7 +380,7 @@ mod tests {
     #[test]
     fn runs_that_agree_prove_little() {
         let ends = |counts: &[usize]| {
-            let found = Interval::of(counts);
+            let found = MeanInterval::of(counts);
             (found.low, found.high)
         };
         assert_eq!(ends(&[3]), (None, None));
@@ -390,8 +390,8 @@ mod tests {
         let (low, high) = ends(&[12; 20]);
         let off = [12.0 - low.unwrap(), high.unwrap() - 12.0];
         assert!(off.iter().all(|off| (off - 3.689 / 20.0).abs() < 1e-3));
-        assert_eq!(Interval::of(&[8; 2]).up_to(8).high, Some(8.0));
-        let of_pairs = Interval::of(&[12; 20]).of_at_most(12);
+        assert_eq!(MeanInterval::of(&[8; 2]).up_to(8).high, Some(8.0));
+        let of_pairs = MeanInterval::of(&[12; 20]).of_at_most(12);
         assert!(of_pairs.mean == 1.0 && of_pairs.high == Some(1.0) && of_pairs.low < Some(0.99));
         // Student's t of four values with a standard deviation of 2.582.
         let (low, high) = ends(&[3, 5, 7, 9]);
@@ -413,7 +413,7 @@ mod tests {
         ] {
             let mut count = || (0..10).filter(|_| rng.random_bool(mean / 10.0)).count();
             let mut holds = || {
-                let found = Interval::of(&(0..runs).map(|_| count()).collect::<Vec<_>>());
+                let found = MeanInterval::of(&(0..runs).map(|_| count()).collect::<Vec<_>>());
                 found.low <= Some(mean) && found.high >= Some(mean)
             };
             let held = (0..500).filter(|_| holds()).count();

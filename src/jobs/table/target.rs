@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::statistics::in_target;
-use super::{About, Interval};
+use super::{About, MeanInterval};
 use crate::assembly::growth::{STEPS, Site};
 use petgraph::algo::maximum_matching;
 use petgraph::graph::UnGraph;
@@ -19,11 +19,11 @@ pub struct Target {
     /// bound to a partner of their own.
     /// For a tile set: the share of the pattern's tiles that are in place in the most complete
     /// cluster.
-    pub share: Interval,
+    pub share: MeanInterval,
     /// For a tile set: tiles of that cluster that are not in a place of the pattern.
-    pub defects: Option<Interval>,
+    pub defects: Option<MeanInterval>,
     /// With a goal: tiles outside such structures.
-    pub outside: Option<Interval>,
+    pub outside: Option<MeanInterval>,
     /// The largest possible number of tiles in such structures.
     pub possible: Option<usize>,
 }
@@ -31,7 +31,7 @@ pub struct Target {
 impl Target {
     /// Evaluates at least one run; `kinds` are the kinds of the tiles.
     pub fn of(about: &About, (crowd, kinds): (&Crowd, &[usize]), runs: &[Run]) -> Self {
-        let alone = |share: Interval| Self {
+        let alone = |share: MeanInterval| Self {
             share,
             defects: None,
             outside: None,
@@ -43,20 +43,20 @@ impl Target {
             let inside: Vec<usize> = runs.iter().map(last).collect();
             let outside: Vec<usize> = inside.iter().map(|it| kinds.len() - it).collect();
             return Self {
-                outside: Some(Interval::of(&outside).up_to(kinds.len())),
+                outside: Some(MeanInterval::of(&outside).up_to(kinds.len())),
                 possible: Some(possible),
-                ..alone(Interval::of(&inside).of_at_most(possible))
+                ..alone(MeanInterval::of(&inside).of_at_most(possible))
             };
         }
         let Some(pattern) = &about.pattern else {
             let of_designs = &about.named.kinds;
             let found: Vec<usize> = runs.iter().map(bonds).collect();
             let possible = of_designs.iter().map(|own| pairs(crowd, kinds, *own)).sum();
-            return alone(Interval::of(&found).of_at_most(possible));
+            return alone(MeanInterval::of(&found).of_at_most(possible));
         };
         let grown: Vec<_> = runs.iter().map(|run| grown(crowd, pattern, run)).collect();
         let of = |pick: fn(&(usize, usize)) -> usize| {
-            Interval::of(&grown.iter().map(pick).collect::<Vec<_>>())
+            MeanInterval::of(&grown.iter().map(pick).collect::<Vec<_>>())
         };
         Self {
             defects: Some(of(|it| it.1)),

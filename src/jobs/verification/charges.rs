@@ -1,11 +1,11 @@
 //! The energy of two uniformly charged faces.
 
-use super::faces::{Face, Outline, far, near};
+use super::faces::{ChargedFace, Outline, far, near};
 use super::stacks;
 
 /// The integral of charge times charge over distance.
-pub(super) fn energy(a: &Face, b: &Face) -> f64 {
-    let height = |it: &Face| it.height.unwrap_or(0.0);
+pub(super) fn energy(a: &ChargedFace, b: &ChargedFace) -> f64 {
+    let height = |it: &ChargedFace| it.height.unwrap_or(0.0);
     let way = [
         b.middle[0] - a.middle[0],
         b.middle[1] - a.middle[1],
@@ -13,7 +13,8 @@ pub(super) fn energy(a: &Face, b: &Face) -> f64 {
     ];
     let size = a.half[0] + a.half[1] + b.half[0] + b.half[1];
     let distance = libm::hypot(libm::hypot(way[0], way[1]), way[2]);
-    let is_upright_rectangle = |it: &Face| it.height.is_none() && it.outline == Outline::Rectangle;
+    let is_upright_rectangle =
+        |it: &ChargedFace| it.height.is_none() && it.outline == Outline::Rectangle;
     let scale = a.area() * b.area() / (distance + size);
     // Fixed places leave less than 1e-7 of the integral.
     let integral = if distance > 3.0 * size {
@@ -37,19 +38,24 @@ mod tests {
         (Outline::Disc, false),
     ];
 
-    fn face((outline, upright): (Outline, bool), pose: [f64; 3], size: f64, height: f64) -> Face {
+    fn face(
+        (outline, upright): (Outline, bool),
+        pose: [f64; 3],
+        size: f64,
+        height: f64,
+    ) -> ChargedFace {
         let half = match outline {
             Outline::Rectangle => [size, 0.6 * size],
             Outline::Disc => [size; 2],
         };
         let along = [libm::cos(pose[2]), libm::sin(pose[2])];
         let place = ([pose[0], pose[1]], (!upright).then_some(height));
-        Face::new(outline, place, along, half, 1.0)
+        ChargedFace::new(outline, place, along, half, 1.0)
     }
 
     /// The integral as a sum over small squares of both faces.
-    fn summed(a: &Face, b: &Face) -> f64 {
-        let squares = |it: &Face| -> Vec<[f64; 3]> {
+    fn summed(a: &ChargedFace, b: &ChargedFace) -> f64 {
+        let squares = |it: &ChargedFace| -> Vec<[f64; 3]> {
             let part = |k: i32| (2.0 * f64::from(k) + 1.0) / 40.0 - 1.0;
             let all = (0..40).flat_map(|i| (0..40).map(move |j| [part(i), part(j)]));
             let is_inside =
@@ -95,7 +101,7 @@ mod tests {
                 for apart in [3.0, 2.0, 1.5, 1.2, 1.0, 0.9, 0.8, 0.7, 0.6, 0.5] {
                     for turn in [0.0, 0.5, 1.0, 1.5] {
                         let fixed = face(a, [0.0, 0.0, 0.3], 0.5, 0.0);
-                        let size = |it: &Face| it.half[0] + it.half[1];
+                        let size = |it: &ChargedFace| it.half[0] + it.half[1];
                         let other = face(b, [0.0, 0.0, 2.0], 0.4, 0.35);
                         let height = other.height.unwrap_or(0.0);
                         let r = apart * (size(&fixed) + size(&other));
@@ -142,7 +148,7 @@ mod tests {
                 (Outline::Disc, 1.0, disc),
             ] {
                 let place = ([0.1, 0.2], (!upright).then_some(0.1));
-                let it = Face::new(outline, place, [0.6, 0.8], [half; 2], 1.0);
+                let it = ChargedFace::new(outline, place, [0.6, 0.8], [half; 2], 1.0);
                 let ratio = energy(&it, &it) / known;
                 let allowed = if upright && outline == Outline::Rectangle {
                     1e-9

@@ -7,7 +7,7 @@
 
 use super::charges;
 use super::distance::{Rim, clearance, placed};
-use super::faces::{Face, Outline};
+use super::faces::{ChargedFace, Outline};
 use super::given::{Magnet, Pose, Shield, Tile, Tiles};
 use super::interval::{Interval, Jet};
 use super::radial::Radial;
@@ -201,7 +201,7 @@ impl ShieldedMagnet {
     }
 
     /// Its pole faces, on a tile at this pose, with their charges (A / m).
-    fn faces(&self, pose: Pose) -> [Face; 2] {
+    fn faces(&self, pose: Pose) -> [ChargedFace; 2] {
         let [l, w, h] = self.size;
         let turn = pose[2] + self.angle;
         let axis = [libm::cos(turn), libm::sin(turn)];
@@ -226,11 +226,11 @@ impl ShieldedMagnet {
             match self.stands {
                 true => {
                     let place = (centre, Some(0.5 * sign * h));
-                    Face::new(self.outline, place, axis, [0.5 * l, 0.5 * w], charge)
+                    ChargedFace::new(self.outline, place, axis, [0.5 * l, 0.5 * w], charge)
                 }
                 false => {
                     let middle = [0, 1].map(|k| centre[k] + 0.5 * sign * l * axis[k]);
-                    Face::new(
+                    ChargedFace::new(
                         self.outline,
                         (middle, None),
                         across,
@@ -537,7 +537,7 @@ impl Magnets {
 
     fn of_bodies(&self, pose: Pose, faces: Option<[usize; 2]>) -> f64 {
         let fixed = self.fixed.iter().map(|it| it.faces([0.0; 3]));
-        let fixed: Vec<[Face; 2]> = fixed.collect();
+        let fixed: Vec<[ChargedFace; 2]> = fixed.collect();
         let mut sum = 0.0;
         for source in &self.moving {
             let moving = source.faces(pose);

@@ -5,7 +5,7 @@
 use std::sync::LazyLock;
 
 /// A face of a magnet.
-pub(super) struct Face {
+pub(super) struct ChargedFace {
     pub outline: Outline,
     /// Its middle, seen from above (m).
     pub middle: [f64; 2],
@@ -35,7 +35,7 @@ const THREE: [[f64; 2]; 3] = [
     [0.774_596_669_241_483_4, 5.0 / 9.0],
 ];
 
-impl Face {
+impl ChargedFace {
     pub fn new(
         outline: Outline,
         (middle, height): ([f64; 2], Option<f64>),
@@ -96,7 +96,7 @@ impl Face {
 }
 
 /// The integral of 1 / r over two faces far apart, the second `way` from the first.
-pub(super) fn far(a: &Face, b: &Face, way: [f64; 3]) -> f64 {
+pub(super) fn far(a: &ChargedFace, b: &ChargedFace, way: [f64; 3]) -> f64 {
     let mut sum = 0.0;
     for (p, first) in &a.points {
         for (q, second) in &b.points {
@@ -108,7 +108,7 @@ pub(super) fn far(a: &Face, b: &Face, way: [f64; 3]) -> f64 {
 }
 
 /// Two upright rectangles: a closed form of three of the four integrals.
-pub(super) fn near(a: &Face, b: &Face, way: [f64; 2]) -> f64 {
+pub(super) fn near(a: &ChargedFace, b: &ChargedFace, way: [f64; 2]) -> f64 {
     let normal = [-a.along[1], a.along[0]];
     let dot = |p: [f64; 2], q: [f64; 2]| p[0] * q[0] + p[1] * q[1];
     let of_line = |v: f64| {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::checks::{Book, Subject};
 use super::distance::{self, Rim, clearance};
 use super::energy::{Magnets, Model, StraightMotion, TOUCH};
-use super::given::{Barrier, Given, GivenPoint, Place, Pose, Report, Share, Tiles};
+use super::given::{Barrier, BarrierEnd, Given, GivenPoint, Pose, Report, Share, Tiles};
 use super::interval::Interval;
 use physics::parallel;
 
@@ -559,9 +559,9 @@ impl Folder<'_> {
 
     fn heights(&self, it: &Barrier, what: &str, book: &mut Book) {
         let states = &self.given.report.states;
-        let energy = |place: Place| match place {
-            Place::State(id) => states.get(id).map(|it| it.energy),
-            Place::Free(_) => Some(0.0),
+        let energy = |place: BarrierEnd| match place {
+            BarrierEnd::State(id) => states.get(id).map(|it| it.energy),
+            BarrierEnd::Free(_) => Some(0.0),
         };
         let ends = [
             (it.from, it.forward, "forward_J"),
@@ -587,16 +587,16 @@ impl Folder<'_> {
         }
     }
 
-    fn ends(&self, what: &str, ends: [Place; 2], points: &[GivenPoint], book: &mut Book) {
+    fn ends(&self, what: &str, ends: [BarrierEnd; 2], points: &[GivenPoint], book: &mut Book) {
         let states = &self.given.report.states;
         let far = radius(&self.tiles.fixed.outline_m) + radius(&self.tiles.moving.outline_m);
         for (place, point) in ends.into_iter().zip([points.first(), points.last()]) {
             let Some(point) = point else { continue };
             let holds = match place {
-                Place::State(id) => states
+                BarrierEnd::State(id) => states
                     .get(id)
                     .is_some_and(|it| apart(it.pose, point.pose()) <= self.allowed.place),
-                Place::Free(_) => libm::hypot(point.x, point.y) >= far * (1.0 - 1e-6),
+                BarrierEnd::Free(_) => libm::hypot(point.x, point.y) >= far * (1.0 - 1e-6),
             };
             book.note(Subject::Ends, holds, || {
                 format!("{what}: the pathway does not reach {}", named(place))
@@ -658,9 +658,9 @@ fn turned(a: Pose, b: Pose) -> f64 {
     (turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round()).abs()
 }
 
-pub(super) fn named(place: Place) -> String {
+pub(super) fn named(place: BarrierEnd) -> String {
     match place {
-        Place::State(id) => id.to_string(),
-        Place::Free(_) => "free".to_owned(),
+        BarrierEnd::State(id) => id.to_string(),
+        BarrierEnd::Free(_) => "free".to_owned(),
     }
 }

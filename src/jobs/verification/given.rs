@@ -49,7 +49,7 @@ pub(super) struct Tiles {
 pub(super) struct Tile {
     pub outline_m: Vec<[f64; 2]>,
     pub magnets: Vec<Magnet>,
-    pub faces: Vec<Face>,
+    pub faces: Vec<GivenFace>,
 }
 
 #[derive(Deserialize)]
@@ -65,7 +65,7 @@ pub(super) struct Magnet {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Face {
+pub(super) struct GivenFace {
     pub middle_m: [f64; 2],
     pub normal: [f64; 2],
     pub shield: Option<Shield>,
@@ -131,7 +131,7 @@ pub(super) struct Inventory {
 /// The end of a barrier.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
-pub(super) enum Place {
+pub(super) enum BarrierEnd {
     State(usize),
     Free(Free_),
 }
@@ -145,8 +145,8 @@ pub(super) enum Free_ {
 
 #[derive(Deserialize)]
 pub(super) struct Barrier {
-    pub from: Place,
-    pub to: Place,
+    pub from: BarrierEnd,
+    pub to: BarrierEnd,
     #[serde(rename = "saddle_energy_J")]
     pub saddle_energy: Option<f64>,
     pub saddle_pose: Option<Pose>,
@@ -170,8 +170,8 @@ pub(super) struct Barrier {
 
 #[derive(Deserialize)]
 pub(super) struct Alternative {
-    pub from: Place,
-    pub to: Place,
+    pub from: BarrierEnd,
+    pub to: BarrierEnd,
     pub pathway: Option<String>,
 }
 

@@ -27,7 +27,7 @@ pub use checks::{Check, Subject};
 use crate::refused::Refused;
 use checks::Book;
 use folder::{apart, named};
-use given::{Given, Place, Pose};
+use given::{BarrierEnd, Given, Pose};
 use physics::observer::Observer;
 
 /// Poses of one state by two runs differ by less than this (m and rad).
@@ -113,13 +113,13 @@ fn compare(names: [&String; 2], given: [&Given; 2], book: &mut Book) {
         return;
     }
     let depth = first.bound.energy.abs().max(second.bound.energy.abs());
-    let pose = |it: &Given, place: Place| -> Option<Pose> {
+    let pose = |it: &Given, place: BarrierEnd| -> Option<Pose> {
         match place {
-            Place::State(id) => it.report.states.get(id).map(|it| it.pose),
-            Place::Free(_) => None,
+            BarrierEnd::State(id) => it.report.states.get(id).map(|it| it.pose),
+            BarrierEnd::Free(_) => None,
         }
     };
-    let is_same = |a: Place, b: Place| match (pose(given[0], a), pose(given[1], b)) {
+    let is_same = |a: BarrierEnd, b: BarrierEnd| match (pose(given[0], a), pose(given[1], b)) {
         (Some(a), Some(b)) => apart(a, b) <= SAME,
         (None, None) => true,
         _ => false,

@@ -4,7 +4,7 @@
 //! Neither the energies nor their bounds are proved: the polynomials are tried at five places of each
 //! piece, and how far their derivatives are off is assumed.
 
-use super::faces::Face;
+use super::faces::ChargedFace;
 use super::interval::Interval;
 use super::stacks;
 
@@ -35,7 +35,7 @@ struct Piece {
 
 impl Radial {
     /// Two discs with these pole faces, both about the same place.
-    pub fn new(first: &[Face; 2], second: &[Face; 2]) -> Self {
+    pub fn new(first: &[ChargedFace; 2], second: &[ChargedFace; 2]) -> Self {
         let touch = (first[0].half[0] + second[0].half[0]).powi(2);
         let of = |square: f64| energy(first, second, square.sqrt());
         let allowed = ERROR * of(touch).abs();
@@ -79,9 +79,9 @@ impl Radial {
 
 /// The energy of two discs at a distance: faces of one sign are as high as each other, or differ as the
 /// discs do; those of two signs are across the mid-plane.
-fn energy(first: &[Face; 2], second: &[Face; 2], distance: f64) -> f64 {
-    let at = |it: &Face, x: f64| it.moved([x, 0.0]);
-    let of = |a: &Face, b: &Face| {
+fn energy(first: &[ChargedFace; 2], second: &[ChargedFace; 2], distance: f64) -> f64 {
+    let at = |it: &ChargedFace, x: f64| it.moved([x, 0.0]);
+    let of = |a: &ChargedFace, b: &ChargedFace| {
         let [a, b] = [at(a, 0.0), at(b, distance)];
         let size = a.area() * b.area() / (distance + 2.0 * (a.half[0] + b.half[0]));
         a.charge * b.charge * stacks::adaptive(&a, &b, 1e-10 * size)
@@ -185,9 +185,10 @@ mod tests {
     use super::super::faces::Outline;
     use super::*;
 
-    fn disc(radius: f64, height: f64) -> [Face; 2] {
+    fn disc(radius: f64, height: f64) -> [ChargedFace; 2] {
         let place = |sign: f64| ([0.0; 2], Some(0.5 * sign * height));
-        [1.0, -1.0].map(|sign| Face::new(Outline::Disc, place(sign), [1.0, 0.0], [radius; 2], sign))
+        [1.0, -1.0]
+            .map(|sign| ChargedFace::new(Outline::Disc, place(sign), [1.0, 0.0], [radius; 2], sign))
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
 use super::distance::between_edges;
-use super::faces::{Face, Outline, gauss, halved};
+use super::faces::{ChargedFace, Outline, gauss, halved};
 
 /// Lines side by side.
 struct Stack {
@@ -39,7 +39,7 @@ struct Line {
 }
 
 impl Stack {
-    fn of(face: &Face) -> Self {
+    fn of(face: &ChargedFace) -> Self {
         let [a, b] = face.half;
         let Some(height) = face.height else {
             return Self {
@@ -177,7 +177,7 @@ static RULES: LazyLock<Vec<Vec<[f64; 2]>>> =
     LazyLock::new(|| LINES.iter().map(|(count, _)| gauss(*count)).collect());
 
 /// The integral of 1 / r over two faces of one kind, with an error of about `allowed`, or 1e-8 of it.
-pub(super) fn integral(a: &Face, b: &Face, allowed: f64) -> f64 {
+pub(super) fn integral(a: &ChargedFace, b: &ChargedFace, allowed: f64) -> f64 {
     let (first, second) = (Stack::of(a), Stack::of(b));
     let apart = between_edges(first.across(), second.across()) / first.reach.max(second.reach);
     match LINES.iter().position(|(_, least)| apart >= *least) {
@@ -198,7 +198,7 @@ fn by_rule(first: &Stack, second: &Stack, rule: &[[f64; 2]]) -> f64 {
 }
 
 /// The same in halves, however near they are.
-pub(super) fn adaptive(a: &Face, b: &Face, allowed: f64) -> f64 {
+pub(super) fn adaptive(a: &ChargedFace, b: &ChargedFace, allowed: f64) -> f64 {
     let (first, second) = (Stack::of(a), Stack::of(b));
     let ends = [-FRAC_PI_2, FRAC_PI_2].map(|angle| first.nearest(second.line(angle).0.at));
     // Where lines come close to each other, integrands bend sharply.

@@ -1,7 +1,7 @@
 //! Workshop files of a design: outlines with pockets for the magnets, and the order of assembly.
 //!
 //! - [`Subject`]: the kinds of tiles of a design, of several, or of a tile set;
-//! - [`Part`]: the cutting lines of each tile;
+//! - [`CutPart`]: the cutting lines of each tile;
 //! - [`order`]: the order in which the magnets of a face are inserted, so that none is pushed out;
 //! - [`grade`]: the nearest magnets of the catalogue;
 //! - [`marks`]: what is engraved beside the pockets;
@@ -25,7 +25,7 @@ pub mod stack;
 
 pub use error::PartError;
 pub use kinds::{Kind, Subject};
-pub use part::{Part, Pocket, open_pockets};
+pub use part::{CutPart, Pocket, open_pockets};
 use physics::tile::Magnet;
 pub use request::{CLEARANCE, Request};
 pub use rim::{Corner, extent};
@@ -62,7 +62,7 @@ pub struct MadeTile {
     /// The number of copies.
     pub copies: usize,
     /// Its lines.
-    pub part: Part,
+    pub part: CutPart,
     /// Its magnets in the order of insertion.
     pub steps: Vec<Filled>,
     /// Its layers, if it has several.
@@ -182,7 +182,7 @@ impl MadeTile {
             name: kind.name.clone(),
             first_face: tile.faces[0].name.clone(),
             copies,
-            part: Part::new(tile, making, &label(&kind.name, most))?,
+            part: CutPart::new(tile, making, &label(&kind.name, most))?,
             steps,
             stack: stack.transpose()?,
         })

@@ -2,7 +2,7 @@
 
 /// The place of a rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct Placement {
     /// The sheet, from 0.
     pub sheet: usize,
     /// The lower left corner on it (m).
@@ -24,7 +24,12 @@ struct Row {
 ///
 /// Highest first, each in the first row with room; where rectangles may be turned, lying down if it
 /// fits.
-pub fn nest(sizes: &[[f64; 2]], sheet: [f64; 2], apart: f64, may_turn: bool) -> Option<Vec<Place>> {
+pub fn nest(
+    sizes: &[[f64; 2]],
+    sheet: [f64; 2],
+    apart: f64,
+    may_turn: bool,
+) -> Option<Vec<Placement>> {
     let room = sheet.map(|length| length - apart);
     let fits = |[w, h]: [f64; 2]| w + apart <= room[0] + 1e-9 && h + apart <= room[1] + 1e-9;
     let laid: Option<Vec<(bool, [f64; 2])>> = sizes
@@ -68,7 +73,7 @@ pub fn nest(sizes: &[[f64; 2]], sheet: [f64; 2], apart: f64, may_turn: bool) -> 
                 rows.last_mut()?
             }
         };
-        places[part] = Some(Place {
+        places[part] = Some(Placement {
             sheet: row.sheet,
             corner: [row.used + apart, row.low],
             turned,

@@ -24,7 +24,7 @@ const STEPS: u32 = 300;
 
 /// The cutting lines of a tile, in its own frame (m).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct CutPart {
     /// The cutter's centre line around the tile, counter-clockwise. Arcs are true arcs, although
     /// the tile's outline has chords.
     pub outline: Vec<Corner>,
@@ -92,7 +92,7 @@ impl Pocket {
     }
 }
 
-impl Part {
+impl CutPart {
     /// Computes the lines of a tile, which is called `name` in its marks.
     ///
     /// # Errors
@@ -190,7 +190,7 @@ pub fn open_pockets(tile: &Tile, clearance: f64) -> (usize, Option<f64>) {
     (open, deeper(tile, &holes))
 }
 
-/// See [`Part::deeper`]: tried, since on slopes a wall grows by less than the inset.
+/// See [`CutPart::deeper`]: tried, since on slopes a wall grows by less than the inset.
 fn deeper(tile: &Tile, holes: &[Magnet]) -> Option<f64> {
     let moved = |hole: &Magnet, by: f64| Magnet {
         position: hole.position - tile.faces[hole.face].normal() * by,

@@ -3,7 +3,7 @@
 use super::{escapes, question};
 use crate::catalogue::Catalogue;
 use crate::minimax::{Bracket, Certifier, Effort, Question};
-use crate::pathway::{self, Limits};
+use crate::pathway::{self, PathLimits};
 use crate::results::{Barrier, Pathway, Place, SaddleBounds, State, highest_point};
 use tiles::configuration::Configuration;
 use tiles::parallel;
@@ -189,7 +189,7 @@ fn take_over(barrier: &mut Barrier, bounds: SaddleBounds, found: Option<Barrier>
 /// does not rise above `upper` (J).
 fn shortest(problem: &Problem, points: &[Configuration], upper: f64) -> Option<Pathway> {
     let bend = BEND * problem.depth();
-    let limits = Limits::below(upper, problem);
+    let limits = PathLimits::below(upper, problem);
     let direct = pathway::shortened(problem, points, &limits);
     let mut pathways = [direct.as_slice(), points]
         .into_iter()

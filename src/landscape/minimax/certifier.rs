@@ -2,7 +2,7 @@
 
 use super::ends::Ends;
 use super::proved::Proofs;
-use super::store::{Part, Store};
+use super::store::{CellEntry, Store};
 use super::upper::ProvedPath;
 use super::ways::Ways;
 use crate::bounded::Bounded;
@@ -152,11 +152,11 @@ impl<'a> Certifier<'a> {
     /// at the leaf's level (J); returns for each how many cells were assessed: 0 if it is too small
     /// to be subdivided.
     pub(super) fn subdivide(&mut self, leaves: &[(u32, f64)], halvings: u32) -> Vec<usize> {
-        let mut divided: Vec<(u32, Vec<Part>)> =
+        let mut divided: Vec<(u32, Vec<CellEntry>)> =
             leaves.iter().map(|(id, _)| (*id, Vec::new())).collect();
         let mut assessed = vec![0; leaves.len()];
         let leaf = |id: u32| (self.store.leaf(id).key, self.store.leaf(id).known);
-        let mut open: Vec<(usize, Part)> = (0..leaves.len())
+        let mut open: Vec<(usize, CellEntry)> = (0..leaves.len())
             .map(|place| (place, leaf(leaves[place].0)))
             .collect();
         for _ in 0..halvings {

@@ -72,7 +72,7 @@ impl Key {
 }
 
 /// A cell of the subdivision, and what is known of it.
-pub(super) type Part = (Key, Assessment);
+pub(super) type CellEntry = (Key, Assessment);
 
 /// A cell of the subdivision that is neither subdivided nor blocked.
 #[derive(Clone, Debug)]
@@ -181,7 +181,7 @@ impl Store {
     }
 
     /// Adds the first cells.
-    pub fn fill(&mut self, cells: &[Part]) {
+    pub fn fill(&mut self, cells: &[CellEntry]) {
         let all = self.push(None, cells);
         self.firsts = cells.len();
         let adjacent = |id| self.adjacent(id as u32, all.clone());
@@ -191,7 +191,7 @@ impl Store {
     }
 
     /// Replaces leaves by their parts that are not blocked.
-    pub fn replace(&mut self, wholes: &[(u32, Vec<Part>)]) {
+    pub fn replace(&mut self, wholes: &[(u32, Vec<CellEntry>)]) {
         let first = self.leaves.len();
         let mut around = Vec::new();
         for (id, parts) in wholes {
@@ -255,7 +255,7 @@ impl Store {
     }
 
     /// Adds leaves, cut from the leaf `whole`, without their neighbours; returns their numbers.
-    fn push(&mut self, whole: Option<u32>, parts: &[Part]) -> Range<u32> {
+    fn push(&mut self, whole: Option<u32>, parts: &[CellEntry]) -> Range<u32> {
         let first = self.leaves.len() as u32;
         for (id, &(key, known)) in (first..).zip(parts) {
             self.lowers.push(known.lower);

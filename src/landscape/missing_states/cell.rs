@@ -32,7 +32,7 @@ const TRIES: usize = 4;
 
 /// The proved property of a cell's free configurations.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Verdict {
+pub(super) enum CellVerdict {
     /// There are no free configurations, or none below the level.
     Nothing,
     /// A step leads from each of them to a free one of lower energy.
@@ -54,22 +54,22 @@ pub(super) struct CellProof<'a> {
 }
 
 impl CellProof<'_> {
-    pub fn verdict(&self, cell: &Cell) -> Verdict {
+    pub fn verdict(&self, cell: &Cell) -> CellVerdict {
         let Some(cuts) = self.bounded.classify(cell) else {
-            return Verdict::Nothing;
+            return CellVerdict::Nothing;
         };
         let enclosure = self.bounded.enclose(&widened(cell, SHORT_FALL));
         let lowest = Lagrangian::tightest(&enclosure, &cell.half, &cuts).lower;
         if lowest > self.level {
-            return Verdict::Nothing;
+            return CellVerdict::Nothing;
         }
         let unknown = enclosure.high - enclosure.low;
         let losses = match self.falls(cell, &enclosure, &cuts) {
-            Some(Ok(())) => return Verdict::Falls,
+            Some(Ok(())) => return CellVerdict::Falls,
             Some(Err(losses)) => losses,
             None => self.sizes(cell),
         };
-        let open = Verdict::Open { lowest, losses };
+        let open = CellVerdict::Open { lowest, losses };
         let is_narrow = unknown < self.rise;
         let ways_out = WAYS_OUT.into_iter().filter(|_| is_narrow);
         let mut opens = ways_out.filter_map(|longest| self.opens(cell, lowest, longest));
@@ -248,7 +248,7 @@ impl CellProof<'_> {
     }
 
     /// Whether a step leads from every free configuration of the cell into a wholly free box.
-    fn opens(&self, cell: &Cell, lowest: f64, longest: f64) -> Option<Verdict> {
+    fn opens(&self, cell: &Cell, lowest: f64, longest: f64) -> Option<CellVerdict> {
         let contacts = self.possible(&widened(cell, longest))?;
         let spare = self.bounded.scale().length(SPARE);
         let least = |c: &PossibleContact| spare - c.least(&cell.half);
@@ -266,7 +266,7 @@ impl CellProof<'_> {
         }
         let known = self.bounded.enclose(&swept);
         let highest = known.form.greatest(&swept.half) + known.high;
-        (highest - lowest <= self.rise).then_some(Verdict::Opens(Opened {
+        (highest - lowest <= self.rise).then_some(CellVerdict::Opens(Opened {
             at: freed.centre,
             lowest,
         }))

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ordered_float::OrderedFloat;
 
 use super::CompletenessSettings;
-use super::cell::{CellProof, Verdict};
+use super::cell::{CellProof, CellVerdict};
 use super::domain::Domain;
 use super::exits::{Exits, Opened};
 use crate::bounded::Bounded;
@@ -139,14 +139,16 @@ impl<'a> StateSearch<'a> {
     fn unproved(
         &mut self,
         proof: &CellProof,
-        looked_at: Vec<((Cell, f64), Verdict)>,
+        looked_at: Vec<((Cell, f64), CellVerdict)>,
     ) -> Vec<(Cell, f64, [f64; 3])> {
         let (mut opened, mut left) = (Vec::new(), Vec::new());
         for ((cell, before), verdict) in looked_at {
             match verdict {
-                Verdict::Nothing | Verdict::Falls => {}
-                Verdict::Opens(place) => opened.push((cell, place)),
-                Verdict::Open { lowest, losses } => left.push((cell, lowest.max(before), losses)),
+                CellVerdict::Nothing | CellVerdict::Falls => {}
+                CellVerdict::Opens(place) => opened.push((cell, place)),
+                CellVerdict::Open { lowest, losses } => {
+                    left.push((cell, lowest.max(before), losses))
+                }
             }
         }
         let places: Vec<Opened> = opened.iter().map(|(_, place)| *place).collect();

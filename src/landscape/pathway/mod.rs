@@ -14,7 +14,7 @@ use tiles::configuration::{Configuration, ConfigurationSpace};
 pub use legs::of_configurations;
 use legs::of_milestones;
 use shortcut::bypassed;
-pub use shortcut::{Limits, shortened};
+pub use shortcut::{PathLimits, shortened};
 
 /// Descents into one minimum end this close to each other (metric of the space, in radii of
 /// gyration).
@@ -39,7 +39,7 @@ pub fn lowest(
     [goals, ends]: [&HashSet<usize>; 2],
     [depth, bend]: [f64; 2],
 ) -> Option<(usize, Pathway)> {
-    let limits = Limits::below(highest(network, from, goals, depth)?, network.problem);
+    let limits = PathLimits::below(highest(network, from, goals, depth)?, network.problem);
     let cost = Cost::Below {
         highest: limits.highest,
         per_metre: limits.per_metre,
@@ -98,7 +98,7 @@ pub fn joined(space: &ConfigurationSpace, mut first: Pathway, second: Pathway) -
 
 /// The pathway along a route. Stretches of straight motions are cut short within the limits; steps
 /// are halved until the energy between two points is linear to within `bend` (J).
-pub fn along(network: &Network, route: &Route, limits: Option<&Limits>, bend: f64) -> Pathway {
+pub fn along(network: &Network, route: &Route, limits: Option<&PathLimits>, bend: f64) -> Pathway {
     let problem = network.problem;
     let mut all: Vec<Point> = Vec::new();
     for stretch in stretches(network, route) {

@@ -38,7 +38,7 @@ const COARSE_FIRST: [usize; GLANCES] = [4, 2, 6, 1, 3, 5, 7];
 
 /// Conditions for a shortcut.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
+pub struct PathLimits {
     /// Its highest energy (J).
     pub highest: f64,
     /// Cost of a metre of path (J).
@@ -47,7 +47,7 @@ pub struct Limits {
     pub tolerance: f64,
 }
 
-impl Limits {
+impl PathLimits {
     /// Limits for paths of these tiles that stay at or below `highest` (J).
     pub fn below(highest: f64, problem: &Problem) -> Self {
         let depth = problem.depth();
@@ -65,7 +65,7 @@ impl Limits {
 pub fn shortened(
     problem: &Problem,
     points: &[Configuration],
-    limits: &Limits,
+    limits: &PathLimits,
 ) -> Vec<Configuration> {
     let mut points = points.to_vec();
     if points.len() <= 2 {
@@ -80,7 +80,7 @@ pub fn shortened(
 
 /// Pulls a polyline tight like a rubber band: point by point towards the middle between its two
 /// neighbours, out of overlap if needed, as long as that costs less.
-fn tighten(problem: &Problem, points: &mut [Configuration], limits: &Limits) {
+fn tighten(problem: &Problem, points: &mut [Configuration], limits: &PathLimits) {
     let price = |way: [&Configuration; 3]| {
         let milestones = way.map(|q| Point::new(problem, *q));
         let [a, b, c] = &milestones;
@@ -130,7 +130,7 @@ fn subdivided(problem: &Problem, points: &[Configuration]) -> Vec<Configuration>
 /// A polyline with those dips and detours bypassed that cost more than a straight motion between
 /// two points of it, the worst first: a route follows whole links of a network, down to a state and
 /// up again, even if it could have changed from one to the other half-way.
-pub fn bypassed(problem: &Problem, mut milestones: Vec<Point>, limits: &Limits) -> Vec<Point> {
+pub fn bypassed(problem: &Problem, mut milestones: Vec<Point>, limits: &PathLimits) -> Vec<Point> {
     for _ in 0..BYPASSES {
         let Some((from, to)) = worst_detour(problem, &milestones, limits) else {
             break;
@@ -144,7 +144,7 @@ pub fn bypassed(problem: &Problem, mut milestones: Vec<Point>, limits: &Limits) 
 fn worst_detour(
     problem: &Problem,
     milestones: &[Point],
-    limits: &Limits,
+    limits: &PathLimits,
 ) -> Option<(usize, usize)> {
     let price = |from: usize, to: usize| {
         let [from, to] = [from, to].map(|k| &milestones[k]);
@@ -179,7 +179,11 @@ fn worst_detour(
 }
 
 /// From each point the farthest is tried first, then the one half as far along, and so on.
-fn cut_short(problem: &Problem, points: &[Configuration], limits: &Limits) -> Vec<Configuration> {
+fn cut_short(
+    problem: &Problem,
+    points: &[Configuration],
+    limits: &PathLimits,
+) -> Vec<Configuration> {
     let milestones = parallel::map(points, |q| Point::new(problem, *q));
     let pairs: Vec<&[Point]> = milestones.windows(2).collect();
     let steps = parallel::map(&pairs, |pair| {
@@ -209,7 +213,7 @@ fn cut_short(problem: &Problem, points: &[Configuration], limits: &Limits) -> Ve
 
 /// Whether a straight motion is free, keeps to the limits and costs no more than `most` (J). A few
 /// places of it are checked first: on a rough landscape most motions fail there.
-fn is_motion_within(problem: &Problem, ends: [&Point; 2], limits: &Limits, most: f64) -> bool {
+fn is_motion_within(problem: &Problem, ends: [&Point; 2], limits: &PathLimits, most: f64) -> bool {
     let [a, b] = ends.map(|end| &end.q);
     let mut energies = [0.0; GLANCES];
     for k in COARSE_FIRST {
@@ -232,7 +236,7 @@ fn is_motion_within(problem: &Problem, ends: [&Point; 2], limits: &Limits, most:
 }
 
 /// The highest energy (J) on a straight motion, and what it costs (J).
-fn motion(problem: &Problem, [a, b]: [&Point; 2], limits: &Limits) -> (f64, f64) {
+fn motion(problem: &Problem, [a, b]: [&Point; 2], limits: &PathLimits) -> (f64, f64) {
     let tolerance = ProfileTolerance {
         relative: 0.0,
         absolute: limits.tolerance,

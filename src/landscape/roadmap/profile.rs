@@ -5,7 +5,7 @@ use ordered_float::OrderedFloat;
 
 use super::knot::{Knot, cubic, inner_extremes, work};
 use super::point::Point;
-use super::stretch::{Bends, Motion, ProfileTolerance, Stretch};
+use super::stretch::{Bends, ProfileTolerance, Stretch, StretchMotion};
 use tiles::order::Order;
 use tiles::problem::Problem;
 
@@ -51,9 +51,9 @@ impl Profile {
         pairs: &[[&Point; 2]],
         tolerance: &ProfileTolerance,
     ) -> Vec<Self> {
-        let motions: Vec<Motion> = pairs
+        let motions: Vec<StretchMotion> = pairs
             .iter()
-            .map(|[a, b]| Motion::new(problem, a, b, tolerance))
+            .map(|[a, b]| StretchMotion::new(problem, a, b, tolerance))
             .collect();
         let mut open: Vec<Stretch> = (0..pairs.len())
             .map(|number| Stretch {

@@ -63,7 +63,7 @@ impl Stretch {
     }
 }
 
-pub(super) struct Motion<'a> {
+pub(super) struct StretchMotion<'a> {
     pub problem: &'a Problem,
     from: Configuration,
     /// The whole motion (m, m, rad).
@@ -73,7 +73,7 @@ pub(super) struct Motion<'a> {
     pub tolerance: &'a ProfileTolerance,
 }
 
-impl<'a> Motion<'a> {
+impl<'a> StretchMotion<'a> {
     pub fn new(
         problem: &'a Problem,
         a: &Point,

@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
-use tilebind::report::sweep::Sweep as Swept;
+use tilebind::report::sweep::FinishedSweep;
 use tilebind::sweep::{Axis, Outcome, Plan, Request, SweepPoint, Value, run as work_on};
 
 use crate::design::Design;
@@ -129,8 +129,8 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    fn swept(&self) -> Swept<'_> {
-        Swept {
+    fn swept(&self) -> FinishedSweep<'_> {
+        FinishedSweep {
             plan: &self.plan,
             points: self.plan.points(),
             outcomes: self.outcomes.clone(),

@@ -15,7 +15,7 @@ use jobs::assembly::choice::{Choice, WordsVerdict};
 use jobs::assembly::kinetic::Growth as Kinetic;
 use jobs::assembly::slides::{self, Slid};
 use jobs::assembly::wiring::Bond;
-use jobs::assembly::{Assembly, Axis, Growing, SIDES, Tau, TileType, designs, rgrow, xgrow};
+use jobs::assembly::{Assembly, Growing, MeetingAxis, SIDES, Tau, TileType, designs, rgrow, xgrow};
 use jobs::output::Command;
 use physics::order::Order;
 use physics::units::{plain, si};
@@ -279,8 +279,8 @@ fn bonds(assembly: &Assembly) -> Table {
     }));
     let kt = assembly.growing.as_ref().map(|it| it.shaken.shaking.kt);
     let axis = |it: &Row| match it.1.axis {
-        Axis::Horizontal => "west-east",
-        Axis::Vertical => "south-north",
+        MeetingAxis::Horizontal => "west-east",
+        MeetingAxis::Vertical => "south-north",
     };
     rows(built.wiring.bonds.iter().enumerate())
         .column("word", "word", "on east or north faces; its mate is on west or south ones", |it: &Row| assembly.face(it.0))

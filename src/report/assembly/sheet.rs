@@ -2,7 +2,7 @@
 
 use crate::document::rows;
 use crate::markdown::markdown_table;
-use jobs::assembly::{Assembly, Axis, TileType};
+use jobs::assembly::{Assembly, MeetingAxis, TileType};
 use physics::tile::magnet::Shape;
 use physics::units::si;
 
@@ -61,9 +61,9 @@ pub(super) fn sheet(assembly: &Assembly) -> String {
         .shown("south", "", face(2))
         .shown("west", "", face(3));
     let code = |word: usize| built.matrix.words[word];
-    let axis = |axis: Axis| match axis {
-        Axis::Horizontal => "word east, mate west",
-        Axis::Vertical => "word north, mate south",
+    let axis = |axis: MeetingAxis| match axis {
+        MeetingAxis::Horizontal => "word east, mate west",
+        MeetingAxis::Vertical => "word north, mate south",
     };
     let words = rows(built.wiring.bonds.iter().enumerate())
         .shown("word", "", |it| assembly.face(it.0))

@@ -39,7 +39,7 @@ pub struct Document<'a> {
     /// Its pictures, in order.
     pub pictures: Vec<Drawing<'a>>,
     /// The interactive part of its page, if any.
-    pub part: Option<Part>,
+    pub part: Option<PagePart>,
     /// Additional files, by name.
     pub beside: Files,
     /// Notes after the results.
@@ -74,7 +74,7 @@ pub struct Fact {
 
 /// An interactive part of a page.
 #[derive(Clone)]
-pub enum Part {
+pub enum PagePart {
     /// The energy over configurations, with pathways.
     Landscape(Box<Landscape>),
     /// Curves and maps of a sweep.

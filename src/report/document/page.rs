@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Document, Entry, Fact, Link, Part, Table};
+use super::{Document, Entry, Fact, Link, PagePart, Table};
 use crate::files::{Files, PAGE, PICTURES, REPORT};
 use crate::page::{self, Illustration, Page};
 use crate::plots::{Figure, PictureError, Sheet};
@@ -89,10 +89,10 @@ impl Document<'_> {
             ..Page::titled(self.title.clone())
         };
         match self.part.clone() {
-            Some(Part::Landscape(landscape)) => page.landscape = Some(*landscape),
-            Some(Part::Charts(charts)) => page.charts = Some(charts),
-            Some(Part::Meetings(meetings)) => page.meetings = Some(meetings),
-            Some(Part::Crowd(crowd)) => page.crowd = Some(crowd),
+            Some(PagePart::Landscape(landscape)) => page.landscape = Some(*landscape),
+            Some(PagePart::Charts(charts)) => page.charts = Some(charts),
+            Some(PagePart::Meetings(meetings)) => page.meetings = Some(meetings),
+            Some(PagePart::Crowd(crowd)) => page.crowd = Some(crowd),
             None => {}
         }
         page
@@ -101,14 +101,14 @@ impl Document<'_> {
 
 impl Document<'_> {
     /// The settings that reproduce the result.
-    fn settings(&self) -> Option<page::Table> {
+    fn settings(&self) -> Option<page::SortableTable> {
         let asked = self.entries.0.iter().find_map(|entry| match entry {
             Entry::Data("settings", asked) => Some(asked),
             _ => None,
         });
         let mut rows = Vec::new();
         flatten("", asked?, &mut rows);
-        Some(page::Table::of_settings(rows))
+        Some(page::SortableTable::of_settings(rows))
     }
 }
 
@@ -139,7 +139,7 @@ impl Fact {
 }
 
 impl Table {
-    fn shown(&self) -> page::Table {
+    fn shown(&self) -> page::SortableTable {
         let viewed: Vec<usize> = self.viewed().collect();
         let (names, texts): (Vec<_>, Vec<_>) = viewed.iter().map(|k| self.column(*k)).unzip();
         let columns = viewed.iter().zip(names).map(|(k, name)| page::Column {
@@ -162,7 +162,7 @@ impl Table {
             _ => None,
         };
         let rows = 0..self.rows.len();
-        page::Table {
+        page::SortableTable {
             title: self.title.clone(),
             note: self.note.clone(),
             columns: columns.collect(),

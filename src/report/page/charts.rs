@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::numbers::{finite, rounded};
 use super::thumbnail::Thumbnail;
 use crate::figures::cell;
-use crate::points::Sweep;
+use crate::points::FinishedSweep;
 use crate::points::Variable;
 use jobs::comparison::quantity::{Measure, NO_TRAPS, QUANTITIES};
 use jobs::comparison::{Assessment, Quantity};
@@ -56,7 +56,7 @@ struct ChartPoint {
 
 impl Charts {
     /// The charts of a finished sweep.
-    pub fn new(sweep: &Sweep) -> Self {
+    pub fn new(sweep: &FinishedSweep) -> Self {
         let variables = sweep.variables();
         let mut tiles = Vec::new();
         let points = 0..sweep.points.len();
@@ -90,7 +90,7 @@ fn tidy(value: f64) -> f64 {
 }
 
 fn point(
-    sweep: &Sweep,
+    sweep: &FinishedSweep,
     index: usize,
     variables: &[Variable],
     tiles: &mut Vec<Thumbnail>,

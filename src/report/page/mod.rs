@@ -67,7 +67,7 @@ pub struct Page {
     /// Pictures, in order.
     pub pictures: Vec<Illustration>,
     /// Tables, in order.
-    pub tables: Vec<Table>,
+    pub tables: Vec<SortableTable>,
     /// Notes, one paragraph each.
     pub notes: Vec<String>,
     /// How it was made: version, seed, checksum.
@@ -106,7 +106,7 @@ pub struct Illustration {
 
 /// A sortable table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Table {
+pub struct SortableTable {
     /// Its title.
     pub title: String,
     /// A note on its rows.
@@ -131,7 +131,7 @@ pub struct Column {
     pub meaning: &'static str,
 }
 
-impl Table {
+impl SortableTable {
     /// The table of settings that reproduce a result.
     pub(super) fn of_settings(settings: Vec<(String, Value)>) -> Self {
         let column = |name: &str| Column {

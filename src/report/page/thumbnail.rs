@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::landscape::{Drawn, pose};
-use crate::points::Sweep;
+use crate::points::FinishedSweep;
 use jobs::sweep::SweepPoint;
 
 /// With more points the page would grow large.
@@ -22,7 +22,7 @@ pub struct Thumbnail {
 
 impl Thumbnail {
     /// `None` if the design is impossible, or there are too many.
-    pub fn of(sweep: &Sweep, point: &SweepPoint) -> Option<Self> {
+    pub fn of(sweep: &FinishedSweep, point: &SweepPoint) -> Option<Self> {
         if sweep.points.len() > MOST_POINTS {
             return None;
         }

@@ -1,11 +1,11 @@
 //! Contour lines of values on a grid.
 
 /// A place on the grid, in steps.
-pub type Place = (f64, f64);
+pub type GridPosition = (f64, f64);
 
 /// The pieces of a contour line of values on a grid, by marching triangles: each square is cut
 /// along a diagonal, and a line crosses each triangle in at most one piece.
-pub fn contour(values: &[f64], [columns, rows]: [usize; 2], level: f64) -> Vec<[Place; 2]> {
+pub fn contour(values: &[f64], [columns, rows]: [usize; 2], level: f64) -> Vec<[GridPosition; 2]> {
     let corner = |i: usize, j: usize| ((i as f64, j as f64), values[j * columns + i]);
     let mut pieces = Vec::new();
     for j in 0..rows.saturating_sub(1) {
@@ -17,7 +17,7 @@ pub fn contour(values: &[f64], [columns, rows]: [usize; 2], level: f64) -> Vec<[
                 corner(i, j + 1),
             ];
             for triangle in [[a, b, c], [a, c, d]] {
-                let crossings: Vec<Place> = (0..3)
+                let crossings: Vec<GridPosition> = (0..3)
                     .filter_map(|k| {
                         let (p, q) = (triangle[k], triangle[(k + 1) % 3]);
                         let crosses = (p.1 < level) != (q.1 < level);

@@ -9,7 +9,7 @@ use jobs::design::Design;
 use jobs::rates::PoseExit;
 use physics::dynamics::exits::ExitRuns;
 use physics::kinetics::rates::exit::MeshExit;
-use physics::kinetics::{OVERDAMPED, Way};
+use physics::kinetics::{OVERDAMPED, PathToFree};
 use physics::units::{duration, share_to, share_with, si};
 
 /// The document of an exit, with the check by moving tiles if requested.
@@ -144,7 +144,7 @@ fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
         share_with(finest.of_rims, 1),
         share_with(finest.error, 1),
     )];
-    if exit.found.way != Way::Open {
+    if exit.found.way != PathToFree::Open {
         notes.push(exit.found.way.describe().to_owned());
     }
     notes.push(SCOPE.to_owned());

@@ -9,7 +9,7 @@ use crate::plots::committor::committor;
 use jobs::design::Design;
 use jobs::rates::{AtKt, RatedState, StateRates};
 use physics::dynamics::MotionSettings;
-use physics::kinetics::Way;
+use physics::kinetics::PathToFree;
 use physics::kinetics::bond::LEAST_DEPTH;
 use physics::kinetics::rates::map::Map;
 use physics::units::{duration, plain, share_to, share_with, si};
@@ -278,7 +278,7 @@ fn notes(found: &StateRates) -> Vec<String> {
         )
     }));
     let ways = found.states.iter().zip(&found.found.ways);
-    let ways = ways.filter(|(_, way)| **way != Way::Open);
+    let ways = ways.filter(|(_, way)| **way != PathToFree::Open);
     notes.extend(ways.map(|(state, way)| format!("{}: {}", state.name, way.describe())));
     notes.push(format!(
         "lifetimes depend on the drag: these are for overdamped motion at {} /s; rates are \

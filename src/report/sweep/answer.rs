@@ -3,7 +3,7 @@
 use crate::assessments::view;
 use crate::document::{Table, rows};
 use crate::figures::cell;
-use crate::points::Sweep;
+use crate::points::FinishedSweep;
 use jobs::comparison::quantity::{QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, ranking};
 use jobs::sweep::SweepPoint;
@@ -27,7 +27,7 @@ fn quantity(key: &str) -> &'static Quantity {
     found.unwrap_or(&QUANTITIES[0])
 }
 
-impl Sweep<'_> {
+impl FinishedSweep<'_> {
     /// The figure by which points are ranked: selectivity, or the bond's depth if there are no
     /// traps.
     fn by(&self) -> &'static Quantity {

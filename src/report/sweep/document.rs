@@ -4,15 +4,15 @@ use serde_json::{Map, Value as Json, json};
 
 use super::pictures::drawings;
 use crate::assessments::{capture_settings, checked, merge, numbers, quantities};
-use crate::document::{Cell, Document, Entries, Part, Table, rows};
+use crate::document::{Cell, Document, Entries, PagePart, Table, rows};
 use crate::page::Charts;
-use crate::points::Sweep;
+use crate::points::FinishedSweep;
 use jobs::sweep::{Outcome, Progress, SweepPoint};
 
 /// Largest number of reasons in the summary.
 const REASONS: usize = 5;
 
-impl Sweep<'_> {
+impl FinishedSweep<'_> {
     /// The document of the sweep.
     pub fn document(&self) -> Document<'_> {
         let plan = self.plan;
@@ -33,7 +33,7 @@ impl Sweep<'_> {
             title: format!("{}: sweep of {}", names.join(", "), keys.join(", ")),
             answer: self.answer().unwrap_or_else(|| counts.clone()),
             entries: self.entries(),
-            part: Some(Part::Charts(Charts::new(self))),
+            part: Some(PagePart::Charts(Charts::new(self))),
             pictures: drawings(self),
             notes: [counts]
                 .into_iter()

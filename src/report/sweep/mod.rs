@@ -11,7 +11,7 @@ mod search_pictures;
 mod searched;
 
 use crate::files::{PAGE, REPORT};
-pub use crate::points::{DESIGNS, Sweep};
+pub use crate::points::{DESIGNS, FinishedSweep};
 pub use document::counts;
 use jobs::output::Command;
 pub use search::BEST;

@@ -11,7 +11,7 @@ use crate::plots::key::key;
 use crate::plots::scale::colour;
 use crate::plots::style::{Anchor, COLOURS, GRID, INK, SMALL, SOFT, minus, series_colour};
 use crate::plots::{Drawing, Figure, PictureError, Sheet};
-use crate::points::{Common, Sweep, Variable};
+use crate::points::{Common, FinishedSweep, Variable};
 use jobs::comparison::quantity::{Measure, NO_TRAPS, QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity};
 use jobs::sweep::SweepPoint;
@@ -44,7 +44,7 @@ type Named<'a> = (String, Vec<&'a SweepPoint>);
 
 /// The content of a picture.
 struct Content<'a> {
-    sweep: &'a Sweep<'a>,
+    sweep: &'a FinishedSweep<'a>,
     /// One number, or two.
     numbers: Vec<Variable>,
     /// The values common to all its points.
@@ -55,7 +55,7 @@ struct Content<'a> {
 
 /// The pictures of a sweep: curves over one varied number, maps over two; none otherwise. All other
 /// varied values distinguish series and pictures.
-pub fn drawings<'a>(sweep: &'a Sweep) -> Vec<Drawing<'a>> {
+pub fn drawings<'a>(sweep: &'a FinishedSweep) -> Vec<Drawing<'a>> {
     let numbers = sweep.variables();
     if !(1..=2).contains(&numbers.len()) {
         return Vec::new();

@@ -5,12 +5,12 @@ use serde_json::{Value as Json, json};
 use super::search_pictures::drawings;
 use super::searched::Searched;
 use crate::assessments::{capture_settings, checked, merge, view};
-use crate::document::{Document, Entries, Part, Table, rows};
+use crate::document::{Document, Entries, PagePart, Table, rows};
 use crate::page::Charts;
-use crate::points::{Sweep, said};
+use crate::points::{FinishedSweep, said};
 use jobs::comparison::Quantity;
 use jobs::comparison::quantity::Measure;
-use jobs::search::{Direction, Effect, Interval, Objective, Standing, Verdict};
+use jobs::search::{Direction, Effect, FigureBounds, Objective, Standing, Verdict};
 use jobs::sweep::{Outcome, Value};
 use ordered_float::OrderedFloat;
 use physics::units::{change_with, share_with, si, si_range};
@@ -54,7 +54,7 @@ impl Searched<'_> {
             ),
             answer: self.answer(&sweep),
             entries: self.entries(&sweep),
-            part: Some(Part::Charts(Charts::new(&self.ranked()))),
+            part: Some(PagePart::Charts(Charts::new(&self.ranked()))),
             pictures: drawings(self),
             notes: notes.chain(checked(designs)).collect(),
             beside,
@@ -64,7 +64,7 @@ impl Searched<'_> {
     }
 
     /// The headline.
-    fn answer(&self, sweep: &Sweep) -> String {
+    fn answer(&self, sweep: &FinishedSweep) -> String {
         let analysed = self.analysed();
         let describe = |index: usize| {
             let point = sweep.called(&self.found.tried[index].point);
@@ -104,7 +104,7 @@ impl Searched<'_> {
         format!("best of {analysed}: {}{proof}", describe(first))
     }
 
-    fn nothing_fits(&self, sweep: &Sweep) -> String {
+    fn nothing_fits(&self, sweep: &FinishedSweep) -> String {
         let nearest = (0..self.standings.len()).filter_map(|k| match &self.standings[k] {
             Standing::Unfit {
                 shortfall, reason, ..
@@ -158,9 +158,9 @@ impl Searched<'_> {
     }
 
     /// The figure of a point with its bounds.
-    fn figure(&self, quantity: &Quantity, index: usize) -> Result<Interval, &'static str> {
+    fn figure(&self, quantity: &Quantity, index: usize) -> Result<FigureBounds, &'static str> {
         match self.found.tried[index].known() {
-            Outcome::Done { result } => Interval::of(quantity, result),
+            Outcome::Done { result } => FigureBounds::of(quantity, result),
             Outcome::Impossible { .. } | Outcome::Failed { .. } => Err("not known"),
         }
     }
@@ -185,7 +185,7 @@ impl Searched<'_> {
 
     // One line an entry.
     #[rustfmt::skip]
-    fn entries(&self, sweep: &Sweep) -> Entries {
+    fn entries(&self, sweep: &FinishedSweep) -> Entries {
         let plan = &self.search.plan;
         let designs = plan.designs.iter().map(|source| json!({"name": source.name, "sha256": source.sha256}));
         let points = 0..self.found.tried.len();
@@ -207,7 +207,7 @@ impl Searched<'_> {
             .table(self.together())
     }
 
-    fn entry(&self, sweep: &Sweep, index: usize) -> Json {
+    fn entry(&self, sweep: &FinishedSweep, index: usize) -> Json {
         let tried = &self.found.tried[index];
         let mut entry = sweep.entry(&tried.point);
         let reason = match &self.standings[index] {
@@ -224,7 +224,7 @@ impl Searched<'_> {
     }
 
     /// A point by its values, with the figures of the aim.
-    fn named(&self, sweep: &Sweep, index: usize) -> Json {
+    fn named(&self, sweep: &FinishedSweep, index: usize) -> Json {
         let point = &self.found.tried[index].point;
         let axes = self.plan.axes.iter().zip(&point.values);
         let values: serde_json::Map<String, Json> = axes
@@ -253,7 +253,7 @@ impl Searched<'_> {
         })
     }
 
-    fn winner(&self, sweep: &Sweep, best: usize) -> Json {
+    fn winner(&self, sweep: &FinishedSweep, best: usize) -> Json {
         let aim = &self.search.aim;
         let result = match self.found.tried[best].known() {
             Outcome::Done { result } => Some(result),
@@ -308,7 +308,7 @@ impl Searched<'_> {
     }
 
     /// The points with the figures of the aim, the best first.
-    fn listed(&self, sweep: &Sweep) -> Table {
+    fn listed(&self, sweep: &FinishedSweep) -> Table {
         let result = |index: usize| match self.found.tried[index].known() {
             Outcome::Done { result } => Some(&**result),
             _ => None,
@@ -329,7 +329,7 @@ impl Searched<'_> {
             .listing(LISTED)
     }
 
-    fn why(&self, sweep: &Sweep, index: usize) -> Option<String> {
+    fn why(&self, sweep: &FinishedSweep, index: usize) -> Option<String> {
         match &self.standings[index] {
             Standing::Unfit { reason, .. } => Some(reason.clone()),
             _ => sweep.reason(index).map(str::to_owned),
@@ -418,8 +418,8 @@ impl Searched<'_> {
 }
 
 /// A figure with its bounds, for people.
-pub fn figure(quantity: &Quantity, interval: &Interval) -> String {
-    let Interval { value, low, high } = *interval;
+pub fn figure(quantity: &Quantity, interval: &FigureBounds) -> String {
+    let FigureBounds { value, low, high } = *interval;
     let one = |value: f64| match quantity.measure {
         _ if value.is_infinite() => "infinite".to_owned(),
         Measure::Energy => si(value, "J", DIGITS),

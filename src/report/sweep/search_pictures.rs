@@ -5,7 +5,7 @@ use crate::plots::Drawing;
 use crate::plots::chart::{Chart, ChartPoint, Dimension, Look};
 use jobs::comparison::Quantity;
 use jobs::comparison::quantity::Measure;
-use jobs::search::{Interval, Objective, Verdict};
+use jobs::search::{FigureBounds, Objective, Verdict};
 use jobs::sweep::Outcome;
 
 /// The pictures.
@@ -34,15 +34,15 @@ fn dimension(quantity: &Quantity) -> Dimension {
     Dimension::new(key, quantity.label)
 }
 
-fn figure(searched: &Searched, quantity: &Quantity, index: usize) -> Option<Interval> {
+fn figure(searched: &Searched, quantity: &Quantity, index: usize) -> Option<FigureBounds> {
     match searched.found.tried[index].known() {
-        Outcome::Done { result } => Interval::of(quantity, result).ok(),
+        Outcome::Done { result } => FigureBounds::of(quantity, result).ok(),
         Outcome::Impossible { .. } | Outcome::Failed { .. } => None,
     }
 }
 
 /// Bounds that are known and apart.
-fn ends(interval: &Interval) -> Option<[f64; 2]> {
+fn ends(interval: &FigureBounds) -> Option<[f64; 2]> {
     let ends = [interval.low, interval.high];
     let are_drawn = ends.iter().all(|end| end.is_finite()) && interval.low < interval.high;
     are_drawn.then_some(ends)
@@ -56,7 +56,7 @@ fn course(searched: &Searched, number: usize, objective: &Objective) -> Chart {
     };
     let is_fit = |k: usize| searched.standings[k].gains().is_some();
     let is_proved = |k: usize| searched.found.tried[k].proved.is_some();
-    let point = |(k, it): (usize, Interval)| ChartPoint {
+    let point = |(k, it): (usize, FigureBounds)| ChartPoint {
         x: (k + 1) as f64,
         y: it.value,
         ends: ends(&it),

@@ -1,6 +1,6 @@
 //! A finished search, with what became of its points.
 
-use crate::points::Sweep;
+use crate::points::FinishedSweep;
 use jobs::search::{Search, SearchResult, Standing, Verdict};
 use jobs::sweep::Plan;
 use ordered_float::OrderedFloat;
@@ -52,8 +52,8 @@ impl<'a> Searched<'a> {
     }
 
     /// Its points as those of a sweep.
-    pub fn sweep(&self) -> Sweep<'_> {
-        Sweep {
+    pub fn sweep(&self) -> FinishedSweep<'_> {
+        FinishedSweep {
             plan: &self.plan,
             points: self
                 .found
@@ -71,7 +71,7 @@ impl<'a> Searched<'a> {
     }
 
     /// The same in the order of the table, as the page wants them.
-    pub(super) fn ranked(&self) -> Sweep<'_> {
+    pub(super) fn ranked(&self) -> FinishedSweep<'_> {
         let mut sweep = self.sweep();
         let order = self.order();
         sweep.outcomes = order.iter().map(|&k| sweep.outcomes[k].clone()).collect();

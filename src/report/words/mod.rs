@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use text::{describe, face, headline, how_many, meetings};
 
 use super::crosstalk::{MOST_DRAWN, histogram};
-use super::document::{Document, Entries, Part, Table, rows};
+use super::document::{Document, Entries, PagePart, Table, rows};
 use super::files::{PAGE, REPORT};
 use super::page::Meetings;
 use super::page::meetings::{Carrier, Met};
@@ -97,7 +97,7 @@ fn of_sought(sought: &Sought) -> Document<'_> {
         remarks: faulty.into_iter().chain(too_long(sought)).collect(),
         entries: entries(sought),
         pictures,
-        part: map.map(Part::Meetings),
+        part: map.map(PagePart::Meetings),
         beside: [("words.toml".to_owned(), set.into_bytes())].into(),
         notes: beyond.into_iter().chain(drawn).collect(),
         origin: format!(

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use crate::crosstalk;
-use crate::document::{Document, Entries, Part, Table, rows};
+use crate::document::{Document, Entries, PagePart, Table, rows};
 use crate::values::{pose, positive_zero};
 use jobs::word_sets::{Spaced, file};
 use physics::units::si;
@@ -24,7 +24,7 @@ pub(super) fn document(spaced: &Spaced) -> Document<'_> {
         pictures: judged.map_or(Vec::new(), |(_, found)| {
             crosstalk::pictures(map.as_ref(), found)
         }),
-        part: map.map(Part::Meetings),
+        part: map.map(PagePart::Meetings),
         beside: [("words.toml".to_owned(), set.into_bytes())].into(),
         origin: format!(
             "seed {}; {} magnets at least {} apart on faces of {}; all poses in which two faces can meet",

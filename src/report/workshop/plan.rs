@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 
 use super::plain;
 use crate::dxf::{Dxf, Layer};
-use jobs::workshop::{Corner, Part, Pocket, extent};
+use jobs::workshop::{Corner, CutPart, Pocket, extent};
 
 /// What happens along a line. The names are those of layers in DXF and groups in SVG.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -60,7 +60,7 @@ pub struct Plan {
 impl Plan {
     /// The lines of a part, with the given text for its number; with pockets and their marks, or
     /// without them: a lid.
-    pub fn new(part: &Part, number: &str, with_pockets: bool) -> Self {
+    pub fn new(part: &CutPart, number: &str, with_pockets: bool) -> Self {
         let mut plan = Self::default();
         let pockets = part.pockets.iter().filter(|_| with_pockets);
         for pocket in pockets.filter(|pocket| !pocket.is_notch) {
@@ -90,7 +90,7 @@ impl Plan {
     }
 
     /// The outline to engrave or print, and magnets with their letters at full size.
-    pub fn check(part: &Part) -> Self {
+    pub fn check(part: &CutPart) -> Self {
         let mut plan = Self::default();
         plan.add(Work::CutOutside, Figure::Closed(part.outline.clone()));
         for pocket in &part.pockets {

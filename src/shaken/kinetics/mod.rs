@@ -48,7 +48,7 @@
 //! # What a mesh may miss
 //! Corridors between contacts that are narrower than cells. If no path out of a state is found,
 //! cells that contact does not prove blocked are divided down to [`NARROW`], until a path is found
-//! or excluded; the result states which ([`Way`]). If a path is found, a second, narrower one with
+//! or excluded; the result states which ([`PathToFree`]). If a path is found, a second, narrower one with
 //! a lower barrier may still be missed.
 //!
 //! # Lengths
@@ -67,7 +67,7 @@ pub mod rates;
 pub use bond::volume::Estimate;
 pub use bond::well::Well;
 pub use bond::{BondError, Hold};
-pub use rates::corridor::{NARROW, Way};
+pub use rates::corridor::{NARROW, PathToFree};
 
 /// Drag rate (1/s) above which the inertia of tiles has no effect on mean times.
 pub const OVERDAMPED: f64 = 50.0;

@@ -83,7 +83,7 @@ impl State {
 pub struct Unsolved;
 
 /// A way to make a step.
-pub struct Way {
+pub struct StepWay {
     /// The mean velocities.
     pub velocities: Each<Vector3<f64>>,
     /// The points that last, with their impulses.

@@ -5,7 +5,7 @@ use nalgebra::{Vector2, Vector3};
 use super::World;
 use super::hold::{Hold, kinetic};
 use super::island::{Island, Masses};
-use super::motion::{State, Unsolved, Way, put_right, put_right_held};
+use super::motion::{State, StepWay, Unsolved, put_right, put_right_held};
 use super::near::Touch;
 use super::rest::{GRAVITY, Rest};
 use super::short::{Each, Points};
@@ -23,11 +23,11 @@ impl<W: World> Island<'_, W> {
     pub(super) fn step(
         &mut self,
         state: &mut State,
-        way: Way,
+        way: StepWay,
         [masses, inverse]: Masses,
         after: f64,
     ) -> Result<f64, Unsolved> {
-        let Way {
+        let StepWay {
             velocities: way,
             holds: held,
             rests,

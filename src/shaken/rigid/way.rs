@@ -6,7 +6,7 @@ use super::World;
 use super::hold::{Hold, Move};
 use super::island::{Island, PRECISE};
 use super::margins::Margins;
-use super::motion::{State, Unsolved, Way, closes};
+use super::motion::{State, StepWay, Unsolved, closes};
 use super::rest::Rest;
 use super::short::{Each, Points};
 use super::solve::Solver;
@@ -26,7 +26,7 @@ impl<W: World> Island<'_, W> {
         state: &State,
         inverse: &[Vector3<f64>],
         longest: f64,
-    ) -> Result<Way, Unsolved> {
+    ) -> Result<StepWay, Unsolved> {
         let mut solver = std::mem::take(&mut self.solver);
         let way = self.search(state, inverse, longest, &mut solver);
         self.solver = solver;
@@ -39,7 +39,7 @@ impl<W: World> Island<'_, W> {
         inverse: &[Vector3<f64>],
         mut longest: f64,
         solver: &mut Solver,
-    ) -> Result<Way, Unsolved> {
+    ) -> Result<StepWay, Unsolved> {
         let now = self.time_to_travel(&state.velocities, &state.holds);
         let mut h = longest.min(now);
         let Margins {
@@ -126,7 +126,7 @@ impl<W: World> Island<'_, W> {
                 }
             }
             if !is_new && first == h {
-                return Ok(Way {
+                return Ok(StepWay {
                     velocities: way,
                     holds,
                     rests,

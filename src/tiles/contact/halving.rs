@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::motion::{Known, Motion, Step};
+use super::motion::{Known, MotionPart, Step};
 use super::{Contact, Placement, separated};
 use crate::configuration::Configuration;
 use crate::tile::outline::ConvexPart;
@@ -120,7 +120,7 @@ impl Contact {
         while !left.stretches.is_empty() && reach > self.scaled(SHORTEST) {
             let stretches = std::mem::take(&mut left.stretches);
             let are_free = stretches.iter().all(|Stretch { ends, pairs }| {
-                let motion = Motion::new(ends, &step, allowed);
+                let motion = MotionPart::new(ends, &step, allowed);
                 match pairs {
                     Some(pairs) => self.open_pairs_stay_apart(&motion, pairs.clone(), left),
                     None => self.parts_stay_apart(&motion, left),
@@ -141,7 +141,7 @@ impl Contact {
     /// half way.
     fn open_pairs_stay_apart(
         &self,
-        motion: &Motion,
+        motion: &MotionPart,
         pairs: Range<usize>,
         left: &mut Halves,
     ) -> bool {
@@ -165,7 +165,7 @@ impl Contact {
     }
 
     /// The same for all parts.
-    fn parts_stay_apart(&self, motion: &Motion, left: &mut Halves) -> bool {
+    fn parts_stay_apart(&self, motion: &MotionPart, left: &mut Halves) -> bool {
         if motion.separates((&self.fixed.hull, &self.moving.hull)) {
             return true;
         }

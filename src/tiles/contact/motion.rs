@@ -26,9 +26,9 @@ impl Contact {
         let [a, b] = [a, b].map(|end| Known::of(end, 0.0));
         let ends = [a.placement, b.placement];
         let step = Step::between(&a, &b);
-        let motion = Motion {
+        let motion = MotionPart {
             even: true,
-            ..Motion::new(&ends, &step, allowed)
+            ..MotionPart::new(&ends, &step, allowed)
         };
         motion.separates((&self.fixed.hull, &self.moving.hull))
             || self.near_pairs(&motion, &motion.middle(), &mut |i, j| {
@@ -44,7 +44,7 @@ impl Contact {
     /// false; returns whether it never did.
     pub(super) fn near_pairs(
         &self,
-        motion: &Motion,
+        motion: &MotionPart,
         middle: &Placement,
         found: &mut impl FnMut(usize, usize) -> bool,
     ) -> bool {
@@ -109,7 +109,7 @@ impl Step {
 }
 
 /// A motion or a part of one, with the data for proofs of separation.
-pub(super) struct Motion<'a> {
+pub(super) struct MotionPart<'a> {
     pub ends: &'a [Placement; 2],
     step: &'a Step,
     /// Tolerated depth of overlap (m).
@@ -118,7 +118,7 @@ pub(super) struct Motion<'a> {
     even: bool,
 }
 
-impl<'a> Motion<'a> {
+impl<'a> MotionPart<'a> {
     pub fn new(ends: &'a [Placement; 2], step: &'a Step, allowed: f64) -> Self {
         Self {
             ends,

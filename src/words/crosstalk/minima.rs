@@ -32,7 +32,7 @@ struct Minimum {
 }
 
 /// The minima at a tilt (rad), in the order of couples, then of slides.
-pub(super) struct Row {
+pub(super) struct TiltMinima {
     tilt: f64,
     minima: Vec<Minimum>,
 }
@@ -40,7 +40,7 @@ pub(super) struct Row {
 /// The minima at all tilts.
 pub(super) struct Grid {
     /// In the order of tilts.
-    rows: Vec<Row>,
+    rows: Vec<TiltMinima>,
     /// Minima at neighbouring tilts whose slides (m) differ by no more are one.
     beside: f64,
 }
@@ -95,18 +95,18 @@ impl<'a> Walk<'a> {
     }
 
     /// The minima, and the lowest energies (J).
-    pub(super) fn end(mut self, tilt: f64) -> (Row, Vec<f64>) {
+    pub(super) fn end(mut self, tilt: f64) -> (TiltMinima, Vec<f64>) {
         let beyond = self.couples.iter().map(|_| f64::INFINITY);
         self.step(f64::INFINITY, beyond);
         let mut minima = std::mem::take(&mut self.minima);
         minima.retain(|it| it.energy <= self.kept(it.couple));
         minima.order_by_key(|it| it.couple);
         minima.shrink_to_fit();
-        (Row { tilt, minima }, self.lowest)
+        (TiltMinima { tilt, minima }, self.lowest)
     }
 }
 
-impl Row {
+impl TiltMinima {
     fn of(&self, couple: usize) -> &[Minimum] {
         let until = |couple| self.minima.partition_point(|it| it.couple < couple);
         &self.minima[until(couple)..until(couple + 1)]
@@ -114,7 +114,7 @@ impl Row {
 }
 
 impl Grid {
-    pub(super) fn new(mut rows: Vec<Row>, beside: f64) -> Self {
+    pub(super) fn new(mut rows: Vec<TiltMinima>, beside: f64) -> Self {
         rows.order_by(|a, b| a.tilt.total_cmp(&b.tilt));
         Self { rows, beside }
     }

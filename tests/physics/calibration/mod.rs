@@ -9,7 +9,7 @@ use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
-use tilebind::calibration::{Calibration, CalibrationSettings, Row, Specimen, calibrate};
+use tilebind::calibration::{Calibration, CalibrationSettings, Measurement, Specimen, calibrate};
 use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
 use tilebind::potential::{MagnetModel, Potential, ShieldedPotential};
 use tilebind::tile::magnet::{Form, Shape, Standing};
@@ -59,12 +59,12 @@ fn tile(pole: f64) -> Tile {
 const SIZES: [f64; 4] = [1e-2, 1.0, 1.0, 1e-2];
 
 /// Measurements computed by the model, 1.05 times as strong, with noise in units of the magnitudes.
-fn measurements(noise: f64) -> Vec<Row> {
+fn measurements(noise: f64) -> Vec<Measurement> {
     measurements_with(noise, &[Some(TRUTH); 4])
 }
 
 /// The same, with shields on the given faces of the fixed tile.
-fn measurements_with(noise: f64, fixed_shields: &[Option<Shield>; 4]) -> Vec<Row> {
+fn measurements_with(noise: f64, fixed_shields: &[Option<Shield>; 4]) -> Vec<Measurement> {
     measurements_of(
         MagnetModel::Dipole,
         [&tile(1.0), &tile(-1.0)],
@@ -78,7 +78,7 @@ fn measurements_of(
     [fixed, moving]: [&Tile; 2],
     noise: f64,
     fixed_shields: &[Option<Shield>; 4],
-) -> Vec<Row> {
+) -> Vec<Measurement> {
     let bare = ShieldedPotential::new(model, fixed, moving, &Shields::default());
     let iron = bare.with_shields(&Shields {
         rule: ShieldRule::Smooth,
@@ -93,7 +93,7 @@ fn measurements_of(
                 rng.random_range(-0.06..0.06),
                 rng.random_range(-0.3..0.3),
             );
-            let mut row = Row {
+            let mut row = Measurement {
                 line: i + 2,
                 configuration,
                 iron: i % 3 != 0,
@@ -110,11 +110,11 @@ fn measurements_of(
         .collect()
 }
 
-fn fit(rows: &[Row]) -> Result<Calibration, String> {
+fn fit(rows: &[Measurement]) -> Result<Calibration, String> {
     fit_with(rows, &Shields::default())
 }
 
-fn fit_with(rows: &[Row], shields: &Shields) -> Result<Calibration, String> {
+fn fit_with(rows: &[Measurement], shields: &Shields) -> Result<Calibration, String> {
     let specimen = Specimen {
         model: MagnetModel::Dipole,
         fixed: &tile(1.0),

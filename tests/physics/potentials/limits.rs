@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::potential::Potential;
 use tilebind::potential::cuboid::CuboidPotential;
-use tilebind::potential::cuboid::limits::{Limits, face_distances};
+use tilebind::potential::cuboid::limits::{BlockLimits, face_distances};
 use tilebind::potential::cuboid::{Block, exact};
 use tilebind::tile::{Magnet, Tile};
 
@@ -38,7 +38,7 @@ fn energies_and_gradients_stay_below_their_bounds() {
     for gap in [0.0, 1e-4, 1e-3, 1e-2, 5e-2, 0.3] {
         for _ in 0..100 {
             let (first, second) = random_pair(&mut rng, gap);
-            let limits = Limits::new(&first, &second);
+            let limits = BlockLimits::new(&first, &second);
             let pair = exact(&first, &second);
             assert!(pair.energy.abs() <= limits.energy(gap));
             assert!(pair.gradient.norm() <= limits.gradient(0.0, gap));
@@ -49,7 +49,7 @@ fn energies_and_gradients_stay_below_their_bounds() {
 #[test]
 fn the_bound_of_the_energy_is_attained_by_a_block_on_its_own_copy() {
     let block = Block::new(0.3, [0.010, 0.012, 0.003]);
-    let limits = Limits::new(&block, &block);
+    let limits = BlockLimits::new(&block, &block);
     let energy = exact(&block, &block).energy;
     assert!(energy <= limits.energy(0.0) && energy > 0.999 * limits.energy(0.0));
 }
@@ -60,7 +60,7 @@ fn second_differences_stay_below_their_bounds() {
     for gap in [3e-4, 1e-3, 5e-3, 3e-2] {
         for _ in 0..100 {
             let (first, second) = random_pair(&mut rng, gap);
-            let limits = Limits::new(&first, &second);
+            let limits = BlockLimits::new(&first, &second);
             let h = 0.1 * gap;
             let direction: f64 = rng.random_range(-3.2..3.2);
             let step = Vector2::new(direction.cos(), direction.sin()) * h;

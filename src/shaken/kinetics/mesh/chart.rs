@@ -17,7 +17,7 @@ pub(in crate::kinetics) const UNITS: i64 = 1 << DEEPEST;
 const ROUNDING: f64 = 1e-12;
 
 /// Places in a mesh: (s, phi, theta) in its smallest units.
-pub(in crate::kinetics) type Place = [i64; 3];
+pub(in crate::kinetics) type MeshPoint = [i64; 3];
 
 /// The configurations with centres at most `radius` apart, in the coordinates (s, phi, theta) with
 /// x = r cos phi, y = r sin phi and s = (r - g) / (radius - g) with a constant g, with only one of
@@ -150,13 +150,13 @@ impl Chart {
     }
 
     /// Whether a place is at the outer end of s.
-    pub fn is_outer(&self, [s, ..]: Place) -> bool {
+    pub fn is_outer(&self, [s, ..]: MeshPoint) -> bool {
         s == self.cells[0] * UNITS
     }
 
     /// A whole place, folded; `None` beyond the ends of s, including the outer end if `closed` is
     /// false.
-    pub fn fold(&self, place: Place, closed: bool) -> Option<Place> {
+    pub fn fold(&self, place: MeshPoint, closed: bool) -> Option<MeshPoint> {
         let [s, phi, theta] = place;
         let period = self.cells.map(|n| n * UNITS);
         let is_inside = (0..period[0]).contains(&s) || (closed && s == period[0]);
@@ -167,7 +167,7 @@ impl Chart {
     }
 
     /// A box of configurations around the mesh's cell with this lower corner.
-    pub fn around(&self, low: Place, level: u8) -> Cell {
+    pub fn around(&self, low: MeshPoint, level: u8) -> Cell {
         let mut size = self.size(level);
         let [s, phi, theta] = self.coordinates(low.map(|units| units as f64));
         let r = self.distance(s);

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::chart::Place;
+use super::chart::MeshPoint;
 use super::element::{shapes, value};
 use super::octree::Octree;
 use tiles::configuration::Configuration;
@@ -19,8 +19,8 @@ pub(in crate::kinetics) struct Nodes {
 
 impl Nodes {
     pub fn new(mesh: &Octree) -> Self {
-        let mut numbers: HashMap<Place, u32> = HashMap::new();
-        let mut places: Vec<Place> = Vec::new();
+        let mut numbers: HashMap<MeshPoint, u32> = HashMap::new();
+        let mut places: Vec<MeshPoint> = Vec::new();
         let mut corners = vec![[0; 8]; mesh.leaves.len()];
         for (id, leaf, _) in mesh.live() {
             corners[id] = std::array::from_fn(|number| {
@@ -118,7 +118,7 @@ impl Nodes {
 type Hanging = (usize, [f64; 8]);
 
 /// The largest cell with the place on its side but not at a corner.
-fn hangs(mesh: &Octree, place: Place) -> Option<Hanging> {
+fn hangs(mesh: &Octree, place: MeshPoint) -> Option<Hanging> {
     let mut largest: Option<(u8, Hanging)> = None;
     for octant in 0..8 {
         let bit = |i: usize| (octant >> i & 1) as i64;
@@ -130,7 +130,7 @@ fn hangs(mesh: &Octree, place: Place) -> Option<Hanging> {
         }
         let unit = mesh.chart.fold(unit, false).expect("it was found");
         let size = leaf.size();
-        let aside: Place = std::array::from_fn(|i| unit[i] + bit(i) - leaf.low[i]);
+        let aside: MeshPoint = std::array::from_fn(|i| unit[i] + bit(i) - leaf.low[i]);
         if aside.iter().any(|&units| units != 0 && units != size) {
             let part = aside.map(|units| units as f64 / size as f64);
             largest = Some((leaf.level, (id, shapes(part))));

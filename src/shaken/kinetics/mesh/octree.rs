@@ -1,6 +1,6 @@
 //! An octree over the folded configurations.
 
-use super::chart::{Chart, DEEPEST, Place, UNITS};
+use super::chart::{Chart, DEEPEST, MeshPoint, UNITS};
 use super::element::Element;
 use tiles::configuration::Configuration;
 
@@ -8,7 +8,7 @@ use tiles::configuration::Configuration;
 #[derive(Clone, Debug)]
 pub(in crate::kinetics) struct Leaf {
     /// Its lower corner.
-    pub low: Place,
+    pub low: MeshPoint,
     /// Its level of subdivision.
     pub level: u8,
     /// The first of its eight parts, in the order of corners.
@@ -27,7 +27,7 @@ pub(in crate::kinetics) struct Leaf {
 }
 
 impl Leaf {
-    fn new(low: Place, level: u8, blocked: bool, parent: Option<u32>) -> Self {
+    fn new(low: MeshPoint, level: u8, blocked: bool, parent: Option<u32>) -> Self {
         Self {
             low,
             level,
@@ -51,7 +51,7 @@ impl Leaf {
     }
 
     /// A corner; bit i of its number says whether it is the upper one along coordinate i.
-    pub fn corner(&self, number: usize) -> Place {
+    pub fn corner(&self, number: usize) -> MeshPoint {
         std::array::from_fn(|i| self.low[i] + if number >> i & 1 == 1 { self.size() } else { 0 })
     }
 
@@ -62,7 +62,7 @@ impl Leaf {
 
     /// A place just beyond the middle of one of its sides: 2 i and 2 i + 1 are the lower and upper
     /// ones along coordinate i.
-    pub fn beyond(&self, side: usize) -> Place {
+    pub fn beyond(&self, side: usize) -> MeshPoint {
         let mut place = self.low.map(|low| low + self.size() / 2);
         let axis = side / 2;
         place[axis] = self.low[axis] + if side % 2 == 1 { self.size() } else { -1 };
@@ -94,7 +94,7 @@ impl Octree {
     }
 
     /// The undivided cell that contains the unit cell with this lower corner.
-    pub fn find(&self, place: Place) -> Option<usize> {
+    pub fn find(&self, place: MeshPoint) -> Option<usize> {
         let place = self.chart.fold(place, false)?;
         let [_, across, turning] = self.chart.cells;
         let [i, j, k] = place.map(|units| units / UNITS);

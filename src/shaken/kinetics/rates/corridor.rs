@@ -4,7 +4,7 @@
 //! although contact may not prove it blocked. If only such cells separate a state from free tiles,
 //! they are divided until a path is found or excluded.
 
-use super::field::Field;
+use super::field::MeshField;
 use super::sets::{best_way, flood};
 use tiles::configuration::Configuration;
 
@@ -15,7 +15,7 @@ const MOST_DIVIDED: usize = 20_000;
 
 /// Whether the mesh has a path from a state to free tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum PathToFree {
     /// It has a path.
     Open,
     /// Contact proves that there is no path.
@@ -24,7 +24,7 @@ pub enum Way {
     Lost,
 }
 
-impl Way {
+impl PathToFree {
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
@@ -48,21 +48,25 @@ impl Way {
     }
 }
 
-impl Field<'_> {
+impl MeshField<'_> {
     /// Refines the mesh until it has a path from a configuration to its rim, if there is one.
-    pub fn open_way(&mut self, from: &Configuration) -> Way {
+    pub fn open_way(&mut self, from: &Configuration) -> PathToFree {
         let mut divided = 0;
         let mut is_excluded = true;
         loop {
             let Some(closed) = self.closed_on_way(from, &mut is_excluded) else {
-                return if is_excluded { Way::Blocked } else { Way::Lost };
+                return if is_excluded {
+                    PathToFree::Blocked
+                } else {
+                    PathToFree::Lost
+                };
             };
             if closed.is_empty() {
-                return Way::Open;
+                return PathToFree::Open;
             }
             divided += closed.len();
             if divided > MOST_DIVIDED {
-                return Way::Lost;
+                return PathToFree::Lost;
             }
             self.divide(&closed);
         }

@@ -1,6 +1,6 @@
 //! The distribution of the distance between a pair of tiles in equilibrium.
 
-use super::field::{DIVIDED, Field};
+use super::field::{DIVIDED, MeshField};
 use crate::kinetics::mesh::UNITS;
 use tiles::configuration::Configuration;
 use tiles::problem::Problem;
@@ -31,7 +31,7 @@ impl Distances {
     /// relative to the deepest known state, `bond`.
     pub fn new(problem: &Problem, bond: &Configuration, kt: f64, end: f64) -> Self {
         let ground = problem.energy(bond);
-        let mut field = Field::new(problem, (kt, false), end, ground, &[*bond]);
+        let mut field = MeshField::new(problem, (kt, false), end, ground, &[*bond]);
         field.settle(&[*bond], &[]);
         let mut known: Option<Vec<f64>> = None;
         let mut settled = 0;
@@ -76,7 +76,7 @@ impl Distances {
 }
 
 /// The first cells' ends along the distance (m).
-fn edges(field: &Field) -> Vec<f64> {
+fn edges(field: &MeshField) -> Vec<f64> {
     let chart = &field.mesh.chart;
     let radius = |cell: i64| {
         let [s, ..] = chart.coordinates([(cell * UNITS) as f64, 0.0, 0.0]);
@@ -85,7 +85,7 @@ fn edges(field: &Field) -> Vec<f64> {
     (0..=chart.cells[0]).map(radius).collect()
 }
 
-fn shares(field: &Field) -> Vec<f64> {
+fn shares(field: &MeshField) -> Vec<f64> {
     let mut sums = vec![0.0; field.mesh.chart.cells[0] as usize];
     for (_, leaf, element) in field.mesh.live() {
         sums[(leaf.low[0] / UNITS) as usize] += element.held();

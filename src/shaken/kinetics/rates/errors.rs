@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::field::Field;
+use super::field::MeshField;
 use super::rim::Rims;
 use crate::kinetics::mesh::{Element, Nodes, slope};
 
@@ -16,7 +16,7 @@ pub(super) struct Errors {
     pub of_rims: f64,
 }
 
-impl Field<'_> {
+impl MeshField<'_> {
     /// The estimated errors of functions' energies by cell, each relative to the function's energy,
     /// and summed. Functions without energy have no error.
     ///

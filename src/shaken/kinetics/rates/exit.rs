@@ -1,7 +1,7 @@
 //! How soon a tile leaves a configuration, and which end it reaches first.
 
-use super::corridor::Way;
-use super::field::{DIVIDED, Earlier, Field};
+use super::corridor::PathToFree;
+use super::field::{DIVIDED, Earlier, MeshField};
 use super::results::{DEEPEST, MESHES, enough};
 pub use super::results::{Exit, ExitError, ExitSettings, MeshExit, half_bond};
 use super::rim::Rims;
@@ -37,7 +37,7 @@ pub fn exit_on(
     check(problem, bond, settings)?;
     let seeds = seeds(problem, bond, start);
     let ground = problem.energy(&start);
-    let mut field = Field::new(
+    let mut field = MeshField::new(
         problem,
         (settings.kt, false),
         settings.free_at,
@@ -136,22 +136,23 @@ const BOUND: usize = 1;
 const FREE: usize = 2;
 
 /// The scale of loads at the pass's level, relative to the start's energy.
-fn scale(field: &Field) -> f64 {
+fn scale(field: &MeshField) -> f64 {
     libm::exp((field.level() - field.ground()) / field.kt)
 }
 
 impl Ends {
     fn new(
-        field: &mut Field,
+        field: &mut MeshField,
         bond: &Configuration,
         asked: &ExitSettings,
-        way: Way,
+        way: PathToFree,
     ) -> Result<Self, ExitError> {
         let beside = field.mesh.neighbours();
-        let around =
-            |field: &Field, q: &Configuration, limit: f64| basin(&field.mesh, &beside, q, limit);
+        let around = |field: &MeshField, q: &Configuration, limit: f64| {
+            basin(&field.mesh, &beside, q, limit)
+        };
         let problem = field.problem;
-        let bound_below = |field: &Field, limit: f64| {
+        let bound_below = |field: &MeshField, limit: f64| {
             let mut inside = around(field, bond, limit);
             for equal in problem.bonds() {
                 // Symmetric copies lie in the same cells.
@@ -191,7 +192,7 @@ impl Ends {
     }
 
     /// The rims of the ends and of the start's well.
-    fn rims(&self, field: &Field) -> Rims {
+    fn rims(&self, field: &MeshField) -> Rims {
         let is_well = |id: usize| self.well.as_ref().is_some_and(|well| well[id]);
         let limit = |id: usize| match is_well(id) {
             true => Some(self.limits[1]),
@@ -203,7 +204,7 @@ impl Ends {
 
     /// For each corner the place where its value is given. Where ends meet, which happens only on
     /// coarse meshes, free takes precedence, then bound.
-    fn pins(&self, field: &Field, nodes: &Nodes) -> Vec<Option<usize>> {
+    fn pins(&self, field: &MeshField, nodes: &Nodes) -> Vec<Option<usize>> {
         let of = |place: usize, cells: Option<&Vec<bool>>| {
             let is_inside = |id: usize| cells.is_some_and(|cells| cells[id]);
             nodes.pins(&field.mesh, FREE, |id| is_inside(id).then_some(place))
@@ -222,7 +223,7 @@ impl Ends {
     /// over D C. There is no small difference of large numbers.
     fn solve(
         &self,
-        field: &Field,
+        field: &MeshField,
         nodes: &Nodes,
         start: &Configuration,
         earlier: Option<&Earlier>,

@@ -26,7 +26,7 @@ pub(super) const DEEP: f64 = 12.0;
 const MOVED: f64 = 2.0;
 
 /// A mesh with the integrals over its cells at one temperature.
-pub(super) struct Field<'a> {
+pub(super) struct MeshField<'a> {
     pub mesh: Octree,
     pub kt: f64,
     /// The problem.
@@ -37,7 +37,7 @@ pub(super) struct Field<'a> {
 /// Functions on an earlier, coarser mesh.
 pub(super) type Earlier = (Nodes, Vec<Vec<f64>>);
 
-impl<'a> Field<'a> {
+impl<'a> MeshField<'a> {
     /// A mesh up to `radius` (m) at kT (J), of the motion of the moving tile or of both, with loads relative to the energy `ground` (J) and
     /// small cells around the `seeds`; their wells are not settled yet.
     pub fn new(

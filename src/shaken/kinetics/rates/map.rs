@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::field::Field;
+use super::field::MeshField;
 use crate::kinetics::mesh::{Nodes, slope, value};
 
 /// Number of points along s and phi that represent a cell.
@@ -29,7 +29,7 @@ pub struct Map {
 
 impl Map {
     /// Projects a function on a mesh onto a number of squares along x and y.
-    pub(super) fn new(field: &Field, nodes: &Nodes, values: &[f64], side: usize) -> Self {
+    pub(super) fn new(field: &MeshField, nodes: &Nodes, values: &[f64], side: usize) -> Self {
         let chart = &field.mesh.chart;
         let radius = chart.distance(1.0);
         let turn = chart.turn();

@@ -15,8 +15,8 @@ mod sets;
 
 use std::f64::consts::{PI, TAU};
 
-use self::corridor::Way;
-use self::field::{DIVIDED, Earlier, Field};
+use self::corridor::PathToFree;
+use self::field::{DIVIDED, Earlier, MeshField};
 use self::links::links;
 use self::map::Map;
 use self::places::Places;
@@ -56,14 +56,14 @@ pub fn rates_on(
         return Err(RatesError::Cold(kt, -ground / kt));
     }
     let all_seeds = with_images(problem, &seeds);
-    let mut field = Field::new(
+    let mut field = MeshField::new(
         problem,
         (kt, settings.both_move),
         free_at,
         ground,
         &all_seeds,
     );
-    let ways: Vec<Way> = seeds.iter().map(|seed| field.open_way(seed)).collect();
+    let ways: Vec<PathToFree> = seeds.iter().map(|seed| field.open_way(seed)).collect();
     let blocked = field.blocked(&seeds);
     field.settle(&all_seeds, &seeds);
     let beyond = outside * TAU * libm::exp(ground / kt);

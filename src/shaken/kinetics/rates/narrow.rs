@@ -4,7 +4,7 @@
 //! meet such a well. So the cells with most of its occupation are divided until the integral
 //! converges.
 
-use super::field::Field;
+use super::field::MeshField;
 use super::sets::reaching;
 use crate::kinetics::mesh::Leaf;
 use tiles::configuration::Configuration;
@@ -20,7 +20,7 @@ const ROUNDS: usize = 8;
 /// Ratio of successive changes of an integral when its cell is divided.
 const LEFT: f64 = 0.5;
 
-impl Field<'_> {
+impl MeshField<'_> {
     /// Divides the cells around the wells of states until their integrals converge. This leaves
     /// cells without free configurations that are too small to prove anything by: whether there are
     /// paths is to be known before. It may also cut paths, so those from `starts` are opened again.

@@ -1,6 +1,6 @@
 //! Basins and `free` on a mesh, and the rates between them computed from the mesh.
 
-use super::field::{DEEP, Earlier, Field};
+use super::field::{DEEP, Earlier, MeshField};
 use super::results::{Basin, MeshRates, RateSettings, RatesError};
 use super::rim::Rims;
 use super::sets::{basin, pass, reaching};
@@ -20,11 +20,11 @@ pub(super) struct Places {
 }
 
 impl Places {
-    pub fn new(field: &mut Field, settings: &RateSettings) -> Result<Self, RatesError> {
+    pub fn new(field: &mut MeshField, settings: &RateSettings) -> Result<Self, RatesError> {
         let beside = field.mesh.neighbours();
         let basins = &settings.basins;
         // Equal tiles can exchange their places.
-        let around = |field: &Field, basin: &Basin, limit: f64| {
+        let around = |field: &MeshField, basin: &Basin, limit: f64| {
             let mut inside = self::basin(&field.mesh, &beside, &basin.at, limit);
             let image = field.problem.exchange.map(|map| map.apply(&basin.at));
             if let Some(image) =
@@ -83,13 +83,13 @@ impl Places {
     }
 
     /// The rims of the basins.
-    pub fn rims(&self, field: &Field) -> Rims {
+    pub fn rims(&self, field: &MeshField) -> Rims {
         let limit = |place: &Option<usize>| place.map(|place| self.limits[place]);
         Rims::new(field, &self.of.iter().map(limit).collect::<Vec<_>>())
     }
 
     /// For each corner the place where its value is given.
-    fn pins(&self, field: &Field, nodes: &Nodes) -> Vec<Option<usize>> {
+    fn pins(&self, field: &MeshField, nodes: &Nodes) -> Vec<Option<usize>> {
         nodes.pins(&field.mesh, self.count - 1, |id| self.of[id])
     }
 
@@ -97,7 +97,7 @@ impl Places {
     /// outside the mesh.
     pub fn solve(
         &self,
-        field: &Field,
+        field: &MeshField,
         nodes: &Nodes,
         beyond: f64,
         earlier: Option<&Earlier>,
@@ -156,7 +156,7 @@ impl Places {
 
     /// The occupation of each place itself (m^2 rad): of a basin below its limit, where committors
     /// are 1.
-    pub fn inside(&self, field: &Field, settings: &RateSettings, beyond: f64) -> Vec<f64> {
+    pub fn inside(&self, field: &MeshField, settings: &RateSettings, beyond: f64) -> Vec<f64> {
         let beside = field.mesh.neighbours();
         let copies = field.mesh.chart.copies as f64;
         let held = |basin: &Basin| -> f64 {
@@ -171,7 +171,7 @@ impl Places {
 
     /// The probability that the first place, the bond, is reached before `free`, with the other
     /// places treated like any configuration.
-    pub fn committor(&self, field: &Field, nodes: &Nodes) -> Result<Vec<f64>, Unsolved> {
+    pub fn committor(&self, field: &MeshField, nodes: &Nodes) -> Result<Vec<f64>, Unsolved> {
         let mut pins = self.pins(field, nodes);
         for pin in &mut pins {
             *pin = pin.filter(|place| *place == 0 || *place + 1 == self.count);

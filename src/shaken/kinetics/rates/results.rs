@@ -1,6 +1,6 @@
 //! Requests and results of overdamped motion: exits from a pose, rates between basins.
 
-use super::corridor::Way;
+use super::corridor::PathToFree;
 use super::map::Map;
 use crate::kinetics::mesh::Unsolved;
 use tiles::configuration::Configuration;
@@ -115,9 +115,9 @@ pub struct Rates {
     /// excludes the region between the places, and it does not depend on how tiles move.
     pub inside: Vec<f64>,
     /// For each basin whether a path leads from it to free tiles.
-    pub ways: Vec<Way>,
+    pub ways: Vec<PathToFree>,
     /// For each place (row) and each other place, the known paths between them.
-    pub links: Vec<Vec<Way>>,
+    pub links: Vec<Vec<PathToFree>>,
 }
 
 impl Rates {
@@ -238,7 +238,7 @@ pub struct Exit {
     /// The results of the meshes, each finer than the previous one.
     pub meshes: Vec<MeshExit>,
     /// Whether a path leads from the start to free tiles.
-    pub way: Way,
+    pub way: PathToFree,
 }
 
 impl Exit {
@@ -297,7 +297,7 @@ pub enum ExitError {
     #[error(
         "no path leads from the start to the bond or to free tiles; {}", .0.describe()
     )]
-    Closed(Way),
+    Closed(PathToFree),
     /// At this kT (J) the start is this deep (kT).
     #[error(
         "at kT = {} the start is {:.0} kT deep, and no tile ever leaves it; exits are computed up \

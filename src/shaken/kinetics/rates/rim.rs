@@ -6,7 +6,7 @@
 //! rim of the cells is compared with the surface where U, interpolated linearly between the cells'
 //! middles, meets the limit.
 
-use super::field::Field;
+use super::field::MeshField;
 use crate::kinetics::mesh::{Element, Nodes};
 
 /// A cell of a basin beside one that is not.
@@ -26,7 +26,7 @@ pub(super) struct Rims {
 
 impl Rims {
     /// The rims of basins given by the limit (J) of each of their cells.
-    pub fn new(field: &Field, limits: &[Option<f64>]) -> Self {
+    pub fn new(field: &MeshField, limits: &[Option<f64>]) -> Self {
         let mesh = &field.mesh;
         let mut sides = vec![0; mesh.leaves.len()];
         let mut steps = Vec::new();
@@ -50,7 +50,12 @@ impl Rims {
 
     /// The contributions of cells to the relative error of a function's energy, and the total: the
     /// systematic sum plus, for the random part, the root of the sum of squares.
-    pub fn errors(&self, field: &Field, nodes: &Nodes, values: &[f64]) -> (Vec<(usize, f64)>, f64) {
+    pub fn errors(
+        &self,
+        field: &MeshField,
+        nodes: &Nodes,
+        values: &[f64],
+    ) -> (Vec<(usize, f64)>, f64) {
         let energy = field.energy(nodes, values).max(f64::MIN_POSITIVE);
         let element = |id: usize| field.mesh.leaves[id].element.as_ref();
         let own = |step: &Step| {

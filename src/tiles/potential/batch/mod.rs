@@ -25,7 +25,7 @@ use nalgebra::{Vector2, Vector3};
 use super::Potential;
 use super::dipole::{Dipole, dipoles, fill};
 use super::groups::are_many;
-use super::groups::tree::{Grain, Group, Tree};
+use super::groups::tree::{DipoleGroup, Grain, Tree};
 use super::groups::walk::Sight;
 use super::lever::Lever;
 use super::motion;
@@ -58,7 +58,7 @@ pub struct DipolePotential {
 /// Data for very many dipoles.
 #[derive(Clone, Debug)]
 struct Many {
-    groups: [Vec<Group>; 2],
+    groups: [Vec<DipoleGroup>; 2],
     /// The field of the fixed tile's dipoles.
     patches: Arc<Patches>,
 }

@@ -1,7 +1,7 @@
 //! The pairs of two tiles' magnets one by one, for what acts on each of them, such as shields.
 
 use super::BodyPotential;
-use super::limits::Limits;
+use super::limits::BodyLimits;
 use crate::configuration::Configuration;
 use crate::potential::far::PairEnergy;
 use crate::potential::motion;
@@ -17,7 +17,7 @@ pub(super) struct Apart<'a> {
     pub distance: f64,
     /// `mu0 m1 m2 / (4 pi)` (J m^3), positive.
     pub strength: f64,
-    limits: &'a Option<Limits>,
+    limits: &'a Option<BodyLimits>,
 }
 
 impl Apart<'_> {

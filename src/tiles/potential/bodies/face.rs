@@ -9,7 +9,7 @@ use arrayvec::ArrayVec;
 
 /// A uniformly charged face.
 #[derive(Clone, Copy, Debug)]
-pub struct Face {
+pub struct ChargedFace {
     /// Its centre (m).
     pub centre: Vector3<f64>,
     /// Unit vectors along its sides, and normal to it.
@@ -41,7 +41,7 @@ fn sides(along: Vector2<f64>) -> [Vector2<f64>; 2] {
     [Vector2::new(-along.y, along.x), along]
 }
 
-impl Face {
+impl ChargedFace {
     /// An upright face with its normal along a unit vector in the tiles' plane.
     pub fn upright(centre: Vector2<f64>, normal: Vector2<f64>, shape: Shape) -> Self {
         let [across, normal] = sides(normal).map(|side| side.push(0.0));

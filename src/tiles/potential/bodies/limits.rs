@@ -25,7 +25,7 @@ use crate::tile::magnet::Shape;
 
 /// Two magnets of moments 1 A m^2, in units of `mu0 / (4 pi)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
+pub struct BodyLimits {
     /// Four times the product of the charge densities for moments of 1 (1/m^6).
     densities: f64,
     /// The length (m) of the first one's rims.
@@ -44,7 +44,7 @@ fn face(body: &Body) -> [f64; 2] {
     }
 }
 
-impl Limits {
+impl BodyLimits {
     pub fn new(first: &Body, second: &Body) -> Self {
         Self {
             densities: 4.0 / (first.volume() * second.volume()),

@@ -30,7 +30,7 @@ use arrayvec::ArrayVec;
 use nalgebra::{Complex, Vector2, Vector3};
 
 use super::complex::{Complexes, Z};
-use super::face::{Face, Integral};
+use super::face::{ChargedFace, Integral};
 use super::panels::panels;
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
@@ -54,9 +54,9 @@ pub struct Placed {
 /// The sum of the integrals of a disc and another face at several places, with the derivatives of the disc's
 /// motion or the other's.
 pub fn integral(
-    disc: &Face,
+    disc: &ChargedFace,
     radius: f64,
-    other: &Face,
+    other: &ChargedFace,
     disc_moves: bool,
     all: &[Placed],
 ) -> Integral {
@@ -71,7 +71,7 @@ pub fn integral(
             true => [second, first],
             false => [first, second],
         };
-        let at = |face: &Face, centre| Face { centre, ..*face };
+        let at = |face: &ChargedFace, centre| ChargedFace { centre, ..*face };
         let from = own - others;
         let lever = if disc_moves { offset } else { -offset };
         angles(
@@ -105,7 +105,7 @@ pub const USUAL: usize = 40;
 struct Line<'a> {
     axis: Vector3<f64>,
     radius: f64,
-    other: &'a Face,
+    other: &'a ChargedFace,
     disc_moves: bool,
     nodes: &'a [Node],
 }
@@ -182,7 +182,13 @@ pub fn columns<const N: usize>(nodes: &[[f64; N]]) -> [[f64; WIDTH]; N] {
 
 /// Calls `each` with angles phi (rad) in [0, pi / 2] and their weights, for about this relative error: the value
 /// at `pi - phi` is the complex conjugate.
-pub fn angles(lost: f64, disc: &Face, radius: f64, other: &Face, mut each: impl FnMut(f64, f64)) {
+pub fn angles(
+    lost: f64,
+    disc: &ChargedFace,
+    radius: f64,
+    other: &ChargedFace,
+    mut each: impl FnMut(f64, f64),
+) {
     let normal = disc.frame[2];
     let corners = other.corners(disc.centre);
     let singular: ArrayVec<Complex<f64>, 12> = corners

@@ -11,7 +11,7 @@ use nalgebra::{Complex, Vector2};
 use super::Body;
 use super::complex::{Complexes, Z};
 use super::disc::{self, Derived};
-use super::face::Face;
+use super::face::ChargedFace;
 use super::line::{USUAL, angles, columns};
 use super::near::{pole_places, strength, upright};
 use crate::potential::far::derivatives::Derivatives;
@@ -31,7 +31,7 @@ pub fn derived(first: &Body, second: &Body) -> (PairEnergy, Derivatives) {
     let mut nodes = Vec::with_capacity(USUAL);
     for placed in pole_places(first, second) {
         let [own, moved] = placed.centres;
-        let at = |face: &Face, centre| Face { centre, ..*face };
+        let at = |face: &ChargedFace, centre| ChargedFace { centre, ..*face };
         let way = complex((moved - own).xy()) * axis.conj();
         let level = placed.offset.dot(&second.direction);
         angles(

@@ -67,14 +67,14 @@ use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::tile::magnet::{Form, Shape};
 use each::Apart;
-use limits::Limits;
+use limits::BodyLimits;
 pub(in crate::potential) use near::exact;
 use nearby::Nearby;
 pub(in crate::potential) use series::magnitudes_of;
 #[cfg(test)]
 pub(in crate::potential) use series::series as series_of;
 pub(in crate::potential) use single::Single;
-use sum::Sum;
+use sum::BodySum;
 
 /// The fraction of a pair's `mu0 m1 m2 / (4 pi r^3)` at which the series replaces the faces, and at
 /// which its terms are dropped one by one.
@@ -186,7 +186,7 @@ struct Alike {
 struct Pairs {
     far: FarForm,
     /// For moments of 1 A m^2; `None` for point dipoles.
-    limits: Option<Limits>,
+    limits: Option<BodyLimits>,
     /// The energy of near pairs, if it is interpolated.
     nearby: Option<Arc<Nearby>>,
 }
@@ -244,7 +244,7 @@ impl Pairs {
         Some(Self {
             nearby: is_coarse.then(|| Arc::new(Nearby::new(first, second, reach, error))),
             far,
-            limits: (model == MagnetModel::Cuboid).then(|| Limits::new(first, second)),
+            limits: (model == MagnetModel::Cuboid).then(|| BodyLimits::new(first, second)),
         })
     }
 
@@ -314,7 +314,7 @@ impl BodyPotential {
 
     /// The sum over pairs (J), its gradient by the second tile's place (J/m) and turn (J/rad).
     fn sum<const SLOPE: bool>(&self, q: &Configuration) -> (f64, Vector3<f64>) {
-        let (energy, gradient) = Level::best().run(Sum::<SLOPE> { potential: self, q });
+        let (energy, gradient) = Level::best().run(BodySum::<SLOPE> { potential: self, q });
         finite(energy, gradient)
     }
 }

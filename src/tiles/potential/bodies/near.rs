@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use super::Body;
 use super::edges;
-use super::face::{Face, Integral, Shape as Charged};
+use super::face::{ChargedFace, Integral, Shape as Charged};
 use super::line::{self, Placed};
 use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::exact as blocks;
@@ -53,7 +53,7 @@ fn standing(first: &Body, second: &Body) -> PairEnergy {
             Shape::Disc => Charged::Disc(a / 2.0),
             Shape::Block => Charged::Rectangle([a / 2.0, b / 2.0]),
         };
-        Face::flat(body.position, body.direction, side * height / 2.0, shape)
+        ChargedFace::flat(body.position, body.direction, side * height / 2.0, shape)
     };
     let own = face(first, 1.0);
     let others = [1.0, -1.0].map(|side| face(second, side));
@@ -72,13 +72,13 @@ fn lying(first: &Body, second: &Body) -> PairEnergy {
 }
 
 /// A face of a magnet that lies, at its middle.
-pub fn upright(body: &Body) -> Face {
+pub fn upright(body: &Body) -> ChargedFace {
     let [_, width, height] = body.size;
     let shape = match body.shape {
         Shape::Disc => Charged::Disc(width / 2.0),
         Shape::Block => Charged::Rectangle([width / 2.0, height / 2.0]),
     };
-    Face::upright(body.position, body.direction, shape)
+    ChargedFace::upright(body.position, body.direction, shape)
 }
 
 /// The places of both faces of one magnet that lies and those of another one.
@@ -111,7 +111,7 @@ fn scaled(integral: &Integral, strength: f64) -> PairEnergy {
 }
 
 /// The integral over two faces that do not meet, both upright or both flat, one of them a disc.
-pub fn alone(first: &Face, second: &Face) -> Integral {
+pub fn alone(first: &ChargedFace, second: &ChargedFace) -> Integral {
     let place = Placed {
         centres: [first.centre, second.centre],
         share: 1.0,
@@ -122,7 +122,7 @@ pub fn alone(first: &Face, second: &Face) -> Integral {
 
 /// The sum of the integrals over two faces that do not meet, at several places: both upright or both flat,
 /// one of them a disc.
-fn integral(first: &Face, second: &Face, places: &[Placed]) -> Integral {
+fn integral(first: &ChargedFace, second: &ChargedFace, places: &[Placed]) -> Integral {
     match [first.shape, second.shape] {
         [Charged::Disc(radius), _] => line::integral(first, radius, second, false, places),
         [_, Charged::Disc(radius)] => line::integral(second, radius, first, true, places),

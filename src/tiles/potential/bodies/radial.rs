@@ -23,7 +23,7 @@
 
 use nalgebra::Vector2;
 
-use super::face::{Face, Shape as Charged};
+use super::face::{ChargedFace, Shape as Charged};
 use super::near::alone;
 use super::{Body, BodyPotential, HAND_OVER};
 use crate::configuration::Configuration;
@@ -57,12 +57,12 @@ pub enum Radial {
     /// Of point dipoles.
     Dipoles,
     /// Of discs.
-    Discs(Table),
+    Discs(RadialTable),
 }
 
 /// V, V' and V'' (J, J/m, J/m^2) at a distance, and how far they may be off.
 #[derive(Clone, Copy, Debug)]
-pub struct Value {
+pub struct RadialValue {
     pub value: [f64; 3],
     pub error: [f64; 3],
 }
@@ -70,7 +70,7 @@ pub struct Value {
 /// From a distance on: the largest V (J), and bounds of the first three derivatives of V as a function
 /// of the place in the plane, in any directions (J/m^n).
 #[derive(Clone, Copy, Debug)]
-pub struct Limits {
+pub struct RadialLimits {
     pub value: f64,
     pub derivatives: [f64; 3],
 }
@@ -80,14 +80,14 @@ impl Radial {
     pub fn new(model: MagnetModel, first: &Magnet, second: &Magnet) -> Self {
         match model {
             MagnetModel::Dipole => Self::Dipoles,
-            MagnetModel::Cuboid => Self::Discs(Table::new(first, second)),
+            MagnetModel::Cuboid => Self::Discs(RadialTable::new(first, second)),
         }
     }
 
     /// V at a distance (m).
-    pub fn at(&self, r: f64) -> Value {
+    pub fn at(&self, r: f64) -> RadialValue {
         match self {
-            Self::Dipoles => Value {
+            Self::Dipoles => RadialValue {
                 value: dipoles(r),
                 error: dipoles(r).map(|it| ROUNDING * it.abs()),
             },
@@ -96,13 +96,13 @@ impl Radial {
     }
 
     /// What holds from a distance (m) on.
-    pub fn from(&self, r: f64) -> Limits {
+    pub fn from(&self, r: f64) -> RadialLimits {
         let of = match self {
             Self::Dipoles => of_dipoles(r),
             Self::Discs(table) => table.from(r),
         };
         let [value, first, second, third] = of;
-        Limits {
+        RadialLimits {
             value,
             derivatives: [
                 first,
@@ -137,7 +137,7 @@ fn steepest(a: f64, b: f64) -> f64 {
 
 /// V of two discs at nodes.
 #[derive(Clone, Debug)]
-pub struct Table {
+pub struct RadialTable {
     /// The sum of the radii (m).
     radii: f64,
     nodes: Vec<Node>,
@@ -185,7 +185,7 @@ impl Discs {
     fn slope_in_plane(&self, r: f64) -> f64 {
         let face = |at: f64, radius: f64| {
             let place = Vector2::new(at, 0.0);
-            Face::flat(place, Vector2::x(), 0.0, Charged::Disc(radius))
+            ChargedFace::flat(place, Vector2::x(), 0.0, Charged::Disc(radius))
         };
         let [one, other] = self.radii;
         alone(&face(0.0, one), &face(r, other)).gradient.x
@@ -239,7 +239,7 @@ fn differences(places: &[f64], slopes: &[f64], order: usize) -> Vec<f64> {
     both.map(|(it, error)| it.abs() + error.abs()).collect()
 }
 
-impl Table {
+impl RadialTable {
     fn new(first: &Magnet, second: &Magnet) -> Self {
         let [first, second] = [first, second].map(|magnet| Magnet {
             position: Vector2::zeros(),
@@ -332,17 +332,17 @@ impl Table {
         (start + passed.count()).checked_sub(1)
     }
 
-    fn at(&self, r: f64) -> Value {
+    fn at(&self, r: f64) -> RadialValue {
         if r >= self.last().r {
             let value = dipoles(r);
             let error = value.map(|it| BEYOND * it.abs());
-            return Value { value, error };
+            return RadialValue { value, error };
         }
         let Some(k) = self.before(r) else {
             // Between contact and the first node V falls by at most this slope times the way.
             let (first, [_, steepest]) = (&self.nodes[0], self.contact);
             let slack = steepest * (first.r - r).max(0.0) + ROUNDING * first.value;
-            return Value {
+            return RadialValue {
                 value: [first.value, 0.0, 0.0],
                 error: [slack, steepest, f64::INFINITY],
             };
@@ -360,7 +360,7 @@ impl Table {
         let (second, fourth) = (step * step, from.fourth);
         // What the nodes' own errors become in the polynomial's derivatives.
         let lost = AT_NODES * (from.value + from.slope.abs() * step);
-        Value {
+        RadialValue {
             value: [value, slope / step, bend / second],
             error: [
                 second * second * fourth / 384.0 + ROUNDING * value,
@@ -439,7 +439,7 @@ mod tests {
                 let gap = 3e-6 * 1.04f64.powi(k);
                 let r = radii + gap;
                 let [energy, slope] = at(r);
-                let Value { value, error } = law.at(r);
+                let RadialValue { value, error } = law.at(r);
                 assert!(
                     (value[0] - energy).abs() <= error[0],
                     "{r}: {value:?} {energy}"
@@ -448,7 +448,7 @@ mod tests {
                     (value[1] - slope).abs() <= error[1],
                     "{r}: {value:?} {slope}"
                 );
-                let Limits {
+                let RadialLimits {
                     value: most,
                     derivatives: [first, second, third],
                 } = law.from(r);

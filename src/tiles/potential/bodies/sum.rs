@@ -15,12 +15,12 @@ use crate::units::MU0_OVER_4PI;
 const ALONE: f64 = 0.0;
 
 /// The energy at a configuration, and its gradient if requested.
-pub struct Sum<'a, const SLOPE: bool> {
+pub struct BodySum<'a, const SLOPE: bool> {
     pub potential: &'a BodyPotential,
     pub q: &'a Configuration,
 }
 
-impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
+impl<const SLOPE: bool> Task for BodySum<'_, SLOPE> {
     type Output = (f64, Vector3<f64>);
 
     #[inline(always)]
@@ -50,7 +50,7 @@ fn members([first, second]: [&Alike; 2]) -> [&Group; 2] {
     [&first.members, &second.members]
 }
 
-impl<const SLOPE: bool> Sum<'_, SLOPE> {
+impl<const SLOPE: bool> BodySum<'_, SLOPE> {
     /// Adds the pair of two members of groups.
     fn add_near(
         &self,

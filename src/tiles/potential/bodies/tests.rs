@@ -2,7 +2,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::face::{Face, Shape};
+use super::face::{ChargedFace, Shape};
 use super::near::{alone as integral, exact};
 use super::{Body, BodyPotential};
 use crate::configuration::Configuration;
@@ -15,7 +15,7 @@ use crate::units::MU0_OVER_4PI;
 const DISC: Shape = Shape::Disc(0.8);
 const BOX: Shape = Shape::Rectangle([0.7, 0.4]);
 
-fn points(face: &Face) -> Vec<(Vector3<f64>, f64)> {
+fn points(face: &ChargedFace) -> Vec<(Vector3<f64>, f64)> {
     let [x, w] = gauss_legendre::<24>();
     let mut all = Vec::new();
     let mut add = |a: f64, b: f64, weight: f64| {
@@ -44,7 +44,7 @@ fn points(face: &Face) -> Vec<(Vector3<f64>, f64)> {
     all
 }
 
-fn summed(first: &Face, second: &Face) -> f64 {
+fn summed(first: &ChargedFace, second: &ChargedFace) -> f64 {
     let second = points(second);
     points(first)
         .iter()
@@ -66,9 +66,9 @@ fn integrals_agree_with_sums() {
         let (sin, cos) = libm::sincos(angle);
         let along = Vector2::new(cos, sin);
         if upright {
-            Face::upright(centre, along, shape)
+            ChargedFace::upright(centre, along, shape)
         } else {
-            Face::flat(centre, along, height, shape)
+            ChargedFace::flat(centre, along, height, shape)
         }
     };
     let far = 1e-9;

@@ -21,7 +21,7 @@ use super::near::{depths, least_distance};
 use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::MagnetModel;
-use crate::potential::bodies::radial::{Limits, Radial, Value};
+use crate::potential::bodies::radial::{Radial, RadialLimits, RadialValue};
 use crate::potential::kinds::{Made, number_of};
 use crate::tile::{Magnet, Tile};
 
@@ -162,7 +162,7 @@ impl Pair {
         let (r, magnitude) = (self.way.norm(), self.strength.abs());
         let [speed, bend, twist] = motion.speeds;
         let nearest = least_distance(r, speed, self.depths);
-        let Limits {
+        let RadialLimits {
             value: most,
             derivatives: [first, second, third],
         } = law.from(nearest);
@@ -171,7 +171,7 @@ impl Pair {
             *out = Enclosure::unknown();
             return 0.0;
         }
-        let Value {
+        let RadialValue {
             value,
             error: [e0, e1, e2],
         } = law.at(r);

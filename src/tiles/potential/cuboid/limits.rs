@@ -45,7 +45,7 @@ const ROOM: f64 = 1.0 + 1e-4;
 
 /// A pair of blocks by their strength and sizes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
+pub struct BlockLimits {
     /// `mu0 m1 m2 / (4 pi)` (J m^3), positive.
     dipole: f64,
     /// `mu0 / (4 pi)` times the product of the charge densities (J/m^3), positive.
@@ -57,7 +57,7 @@ pub struct Limits {
     gradient: f64,
 }
 
-impl Limits {
+impl BlockLimits {
     /// For blocks of these moments and sizes, at any places.
     pub fn new(first: &Block, second: &Block) -> Self {
         let at_origin = |block: &Block| Block::new(block.moment.abs(), block.size);

@@ -25,14 +25,14 @@ pub struct Many {
 /// The groups of one tile.
 #[derive(Clone, Debug)]
 struct Side {
-    tree: Vec<tree::Group>,
+    tree: Vec<tree::DipoleGroup>,
     /// By their place in the tree, ascending.
-    parts: Vec<Part>,
+    parts: Vec<SizeGroup>,
 }
 
 /// Blocks of one size.
 #[derive(Clone, Debug)]
-pub struct Part {
+pub struct SizeGroup {
     /// Where their dipoles, or those that stand for them, start in the tree.
     start: usize,
     /// The index of the size.
@@ -44,8 +44,8 @@ pub struct Part {
 /// Two groups.
 #[derive(Clone, Copy, Debug)]
 pub struct BlockGroups<'a> {
-    pub fixed: &'a Part,
-    pub moving: &'a Part,
+    pub fixed: &'a SizeGroup,
+    pub moving: &'a SizeGroup,
     /// If they are taken as wholes, the product (A^2 m^4) of the sums of the moments' magnitudes, and
     /// the smallest distance (m) of the blocks.
     pub whole: Option<(f64, f64)>,
@@ -119,14 +119,14 @@ impl Side {
         let mut parts = Vec::new();
         for group in &tree {
             let size = kinds[of[next]].size;
-            parts.extend(group.stands.iter().map(|stand| Part {
+            parts.extend(group.stands.iter().map(|stand| SizeGroup {
                 start: stand.dipoles.start,
                 size,
                 members: Vec::new(),
             }));
             if group.parts.is_none() {
                 let members = order[next..next + group.count].iter();
-                parts.push(Part {
+                parts.push(SizeGroup {
                     start: group.own.start,
                     size,
                     members: members.map(|[_, member]| *member).collect(),
@@ -139,7 +139,7 @@ impl Side {
     }
 
     /// The blocks whose dipoles start there.
-    fn part(&self, start: usize) -> &Part {
+    fn part(&self, start: usize) -> &SizeGroup {
         &self.parts[self.parts.partition_point(|it| it.start < start)]
     }
 }

@@ -50,7 +50,7 @@ use super::dipole::dipoles;
 use super::far::FarForm;
 pub use super::far::PairEnergy;
 use super::far::group::Group;
-use super::far::multipole::{Form, Multipole, along, composed, product, squares};
+use super::far::multipole::{Multipole, Polynomial, along, composed, product, squares};
 use super::far::rows::Facing;
 use super::kinds::number_of;
 use super::lever::Lever;
@@ -59,11 +59,11 @@ use super::{DipolePotential, Potential, motion};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 pub use block::Block;
-use limits::Limits;
+use limits::BlockLimits;
 use many::{BlockGroups, Many};
 pub use panel::exact;
-use sum::{Each, Sum};
-use table::Field;
+use sum::{BlockSum, Each};
+use table::BlockField;
 
 /// The relative error of a pair (in units of `mu0 m1 m2 / (4 pi r^3)`) at which the far form
 /// replaces the pole faces and, in units of the strongest pair's value, at which its terms are
@@ -81,7 +81,7 @@ pub struct CuboidPotential {
     /// For each size of a fixed block and each size of a moving one.
     sizes: Vec<Vec<Sizes>>,
     many: Option<Many>,
-    field: Option<Arc<Field>>,
+    field: Option<Arc<BlockField>>,
     /// The blocks as dipoles.
     dipoles: DipolePotential,
     lever: Lever,
@@ -99,7 +99,7 @@ struct SizedBlock {
 struct Sizes {
     far: FarForm,
     /// Bounds for moments of 1 A m^2.
-    limits: Limits,
+    limits: BlockLimits,
     /// The sum of the blocks' radii (m).
     radii: f64,
 }
@@ -109,7 +109,7 @@ const TERMS: usize = 10;
 const BOUND_TERMS: usize = 16;
 
 /// The terms of degree 1, 3, 5 .. of `S d_a`, in the block's own directions.
-fn operator(size: [f64; 3]) -> Vec<Form> {
+fn operator(size: [f64; 3]) -> Vec<Polynomial> {
     let sides = squares().into_iter().zip(size);
     let parts: Vec<_> = sides
         .map(|(square, length)| along(&square, BOUND_TERMS, length))
@@ -132,7 +132,7 @@ impl Sizes {
         let [first, second] = [first, second].map(|size| Block::new(1.0, size));
         Self {
             far,
-            limits: Limits::new(&first, &second),
+            limits: BlockLimits::new(&first, &second),
             radii: first.radius() + second.radius(),
         }
     }
@@ -204,7 +204,7 @@ impl CuboidPotential {
                     .collect()
             })
             .collect();
-        let field = Field::new((&fixed, &fixed_groups), (&moving, &moving_sizes), level);
+        let field = BlockField::new((&fixed, &fixed_groups), (&moving, &moving_sizes), level);
         let many = Many::new([&fixed, &moving], [&fixed_groups, &moving_groups], &sizes);
         Self {
             level,
@@ -231,7 +231,7 @@ impl CuboidPotential {
 
     /// The bounds of the derivatives of the fixed block `i` and the moving block `j`, for moments of
     /// 1 A m^2.
-    pub(in crate::potential) fn limits(&self, i: usize, j: usize) -> &Limits {
+    pub(in crate::potential) fn limits(&self, i: usize, j: usize) -> &BlockLimits {
         &self.sizes[self.fixed[i].size][self.moving[j].size].limits
     }
 
@@ -262,11 +262,11 @@ impl CuboidPotential {
 
 impl Potential for CuboidPotential {
     fn energy(&self, q: &Configuration) -> f64 {
-        self.level.run(Sum::<false> { potential: self, q }).0
+        self.level.run(BlockSum::<false> { potential: self, q }).0
     }
 
     fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
-        self.level.run(Sum::<true> { potential: self, q })
+        self.level.run(BlockSum::<true> { potential: self, q })
     }
 
     /// See [`limits`] for the bounds and their proofs. If pole faces may come closer than a

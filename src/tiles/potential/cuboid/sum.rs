@@ -6,7 +6,7 @@ use nalgebra::{Complex, Vector3};
 
 use super::block::BlockPair;
 use super::panel::{self, Near};
-use super::table::{self, Field};
+use super::table::{self, BlockField};
 use super::{CuboidPotential, member};
 use crate::configuration::Configuration;
 use crate::potential::far::PairEnergy;
@@ -17,12 +17,12 @@ use crate::potential::simd::lanes::{Lanes, Task};
 use crate::units::MU0_OVER_4PI;
 
 /// The energy at a configuration, and its gradient if requested (otherwise zero).
-pub struct Sum<'a, const SLOPE: bool> {
+pub struct BlockSum<'a, const SLOPE: bool> {
     pub potential: &'a CuboidPotential,
     pub q: &'a Configuration,
 }
 
-impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
+impl<const SLOPE: bool> Task for BlockSum<'_, SLOPE> {
     type Output = (f64, Vector3<f64>);
 
     #[inline(always)]
@@ -36,7 +36,7 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
     }
 }
 
-impl<const SLOPE: bool> Sum<'_, SLOPE> {
+impl<const SLOPE: bool> BlockSum<'_, SLOPE> {
     /// The sum over all pairs of groups.
     #[inline(always)]
     fn over_groups<L: Lanes>(&self, l: L, rotation: Complex<f64>) -> (f64, Vector3<f64>) {
@@ -78,7 +78,7 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
     fn in_field<L: Lanes>(
         &self,
         l: L,
-        field: &Field,
+        field: &BlockField,
         rotation: Complex<f64>,
     ) -> (f64, Vector3<f64>) {
         let [all_fixed, all_moving] = [&self.potential.fixed_groups, &self.potential.moving_groups];
@@ -170,7 +170,7 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
     }
 }
 
-impl<const SLOPE: bool> Sum<'_, SLOPE> {
+impl<const SLOPE: bool> BlockSum<'_, SLOPE> {
     /// The pairs of the blocks with these indices in two groups, by their pole faces.
     fn near(
         &self,

@@ -33,7 +33,7 @@ use crate::potential::far::terms::Sums;
 use crate::potential::groups::are_many;
 use crate::potential::patches::polynomial::{Charge, Interpolation, Polynomial, Sampled};
 use crate::potential::patches::square::{Rule, Source, distance};
-use crate::potential::patches::table::Table;
+use crate::potential::patches::table::FieldTable;
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, WIDTH};
 use crate::units::MU0_OVER_4PI;
@@ -58,7 +58,7 @@ const FINEST: f64 = 1.0 / 8.0;
 
 /// The field of the fixed tile's blocks, for each size of a moving block.
 #[derive(Clone, Debug)]
-pub struct Field {
+pub struct BlockField {
     tables: Vec<FieldOfSize>,
     /// How far the moving blocks' centres are from the moving tile's reference point (m).
     lever: f64,
@@ -69,7 +69,7 @@ pub struct Field {
 struct FieldOfSize {
     /// Of the moving blocks (m).
     size: [f64; 3],
-    table: Table<Fixed>,
+    table: FieldTable<Fixed>,
     interpolation: Interpolation<ORDER>,
 }
 
@@ -104,7 +104,7 @@ impl Source for Fixed {
     }
 }
 
-impl Field {
+impl BlockField {
     /// The field of the fixed blocks of some groups, for moving blocks and their sizes (m); `None` if a
     /// table does not pay.
     pub fn new(
@@ -132,7 +132,7 @@ impl Field {
             };
             FieldOfSize {
                 size: *size,
-                table: Table::new(sources.clone(), rule),
+                table: FieldTable::new(sources.clone(), rule),
                 interpolation: Interpolation::new(),
             }
         };

@@ -48,7 +48,7 @@ const ORDERS: [usize; 6] = [6, 8, 12, 16, 20, 24];
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
     /// The whole tile first.
-    pub groups: Vec<Group>,
+    pub groups: Vec<DipoleGroup>,
     /// The dipoles of the tile and the replacements of groups, each of them padded with dipoles
     /// without moment.
     pub dipoles: Vec<Dipole>,
@@ -59,7 +59,7 @@ pub struct Tree {
 
 /// Consecutive dipoles of a tile, in a box.
 #[derive(Clone, Debug)]
-pub struct Group {
+pub struct DipoleGroup {
     /// Centre of the box (m).
     pub centre: Vector2<f64>,
     /// Unit vector along the box.
@@ -114,7 +114,7 @@ impl Tree {
     /// `farthest` (m) from the reference point is not replaced.
     fn add(&mut self, dipoles: &[Dipole], kinds: &[usize], grain: Grain, farthest: f64) -> usize {
         let number = self.groups.len();
-        let mut group = Group::around(dipoles);
+        let mut group = DipoleGroup::around(dipoles);
         self.groups.push(group.clone());
         let is_of_one_kind = kinds.first() == kinds.last();
         if is_of_one_kind && dipoles.len() <= FEW.max(2 * grain.fill) {
@@ -178,7 +178,7 @@ fn between_kinds(kinds: &[usize]) -> usize {
     nearest.expect("several kinds")
 }
 
-impl Group {
+impl DipoleGroup {
     fn around(dipoles: &[Dipole]) -> Self {
         let ends = [&dipoles[0], &dipoles[dipoles.len() - 1]].map(|dipole| dipole.position);
         let axis = (ends[1] - ends[0]).try_normalize(0.0);

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::Vector2;
 
-use super::tree::Group;
+use super::tree::DipoleGroup;
 use crate::configuration::Configuration;
 
 /// How far the dipoles of the moving tile may deviate from the central configuration.
@@ -44,7 +44,7 @@ pub struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    pub fn new(groups: [&'a [Group]; 2], q: &Configuration, leeway: Leeway) -> Self {
+    pub fn new(groups: [&'a [DipoleGroup]; 2], q: &Configuration, leeway: Leeway) -> Self {
         let mut open = Vec::with_capacity(64);
         if groups.iter().all(|groups| !groups.is_empty()) {
             open.push([0, 0]);
@@ -60,13 +60,13 @@ impl<'a> Walk<'a> {
 
 /// The groups of two tiles in a configuration.
 pub struct Sight<'a> {
-    pub groups: [&'a [Group]; 2],
+    pub groups: [&'a [DipoleGroup]; 2],
     place: Vector2<f64>,
     turn: Vector2<f64>,
 }
 
 impl<'a> Sight<'a> {
-    pub fn new(groups: [&'a [Group]; 2], q: &Configuration) -> Self {
+    pub fn new(groups: [&'a [DipoleGroup]; 2], q: &Configuration) -> Self {
         let (sin, cos) = libm::sincos(q.theta);
         Self {
             groups,
@@ -87,7 +87,7 @@ impl<'a> Sight<'a> {
 
     /// A lower bound of the distance (m) of two groups: in the frame of either box, the distance of
     /// the axis-aligned boxes around both.
-    pub fn distance(&self, fixed: &Group, moving: &Group) -> f64 {
+    pub fn distance(&self, fixed: &DipoleGroup, moving: &DipoleGroup) -> f64 {
         let way = self.place(moving.centre) - fixed.centre;
         let axis = self.turned(moving.axis);
         let cos = fixed.axis.dot(&axis).abs();

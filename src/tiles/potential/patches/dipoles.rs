@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 
 use super::polynomial::{Interpolation, Polynomial, Sampled};
 use super::square::{NEAR, Rule, Source, Square, distance};
-use super::table::Table;
+use super::table::FieldTable;
 use crate::potential::dipole::{Dipole, fill};
 use crate::potential::simd::Level;
 
@@ -27,7 +27,7 @@ pub const POWERS: usize = 5;
 #[derive(Clone, Debug)]
 pub struct Patches {
     /// Their moments are in sqrt(J m^3).
-    table: Table<Dipole>,
+    table: FieldTable<Dipole>,
     interpolation: Interpolation<ORDER>,
     level: Level,
 }
@@ -94,7 +94,7 @@ impl Patches {
             smallest: 0.0,
         };
         Self {
-            table: Table::new(sources.to_vec(), rule),
+            table: FieldTable::new(sources.to_vec(), rule),
             interpolation: Interpolation::new(),
             level,
         }

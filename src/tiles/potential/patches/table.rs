@@ -16,7 +16,7 @@ const DEEPEST: usize = 11;
 
 /// A table of the field of some sources.
 #[derive(Clone, Debug)]
-pub struct Table<S: Source> {
+pub struct FieldTable<S: Source> {
     pub sources: Vec<S>,
     pub rule: Rule,
     /// Half the side of the table (m).
@@ -33,7 +33,7 @@ struct Cell<K> {
     levels: Vec<Vec<u32>>,
 }
 
-impl<S: Source> Table<S> {
+impl<S: Source> FieldTable<S> {
     pub fn new(sources: Vec<S>, rule: Rule) -> Self {
         let farthest = sources.iter().map(Source::reach);
         Self {

@@ -3,7 +3,7 @@
 use super::kernel::PairColumns;
 use crate::configuration::Configuration;
 use crate::potential::cuboid::block::Block;
-use crate::potential::cuboid::limits::{Limits, face_distances};
+use crate::potential::cuboid::limits::{BlockLimits, face_distances};
 use crate::potential::simd::Level;
 use crate::potential::{BodyPotential, CuboidPotential, Potential};
 use crate::tile::Magnet;
@@ -24,7 +24,7 @@ pub(super) struct Blocks {
     fixed: Vec<Block>,
     moving: Vec<Block>,
     /// For each pair, in the order of the second magnets.
-    limits: Vec<Limits>,
+    limits: Vec<BlockLimits>,
 }
 
 impl Bare {
@@ -33,7 +33,7 @@ impl Bare {
         let (first, second) = (blocks(fixed), blocks(moving));
         let limits = second
             .iter()
-            .flat_map(|second| first.iter().map(|first| Limits::new(first, second)));
+            .flat_map(|second| first.iter().map(|first| BlockLimits::new(first, second)));
         Self::Blocks(Box::new(Blocks {
             potential: CuboidPotential::with_level(fixed, moving, level),
             limits: limits.collect(),
@@ -91,7 +91,7 @@ impl Bare {
 }
 
 impl Blocks {
-    /// Calls `put` with the numbers of each pair and its bounds, see [`Limits`].
+    /// Calls `put` with the numbers of each pair and its bounds, see [`BlockLimits`].
     fn each_limits(
         &self,
         q: &Configuration,

@@ -133,7 +133,7 @@ impl ShieldedPotential {
         }
         let bare = self.bare.as_ref();
         let pairs = bare.map(|bare| bare.pairs::<SLOPE>(q, self.fixed.len(), self.columns.len()));
-        let (energy, gradient) = self.level.run(kernel::Sum::<SLOPE> {
+        let (energy, gradient) = self.level.run(kernel::DipoleSum::<SLOPE> {
             fixed: &self.columns,
             moving: &self.moving,
             q,

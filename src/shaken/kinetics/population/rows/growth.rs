@@ -7,7 +7,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::closing::Spreads;
-use super::joints::{Joints, Row};
+use super::joints::{Joints, TileRow};
 use crate::kinetics::population::choice::chosen;
 use crate::kinetics::population::crowd::PairRates;
 use tiles::interruption;
@@ -56,10 +56,10 @@ impl Census {
 /// The rows of one simulation.
 struct Table {
     /// Chains, with the rates (1/s) at which they close.
-    open: Vec<(Row, f64)>,
-    rings: Vec<Row>,
+    open: Vec<(TileRow, f64)>,
+    rings: Vec<TileRow>,
     /// Two chains and the state that holds them.
-    held: Vec<(Row, Row, usize)>,
+    held: Vec<(TileRow, TileRow, usize)>,
 }
 
 impl Table {
@@ -83,12 +83,12 @@ impl Table {
 /// rate (1/s) they close.
 #[derive(Default)]
 struct Known {
-    fit: BTreeMap<(Row, usize), bool>,
-    closing: BTreeMap<Row, f64>,
+    fit: BTreeMap<(TileRow, usize), bool>,
+    closing: BTreeMap<TileRow, f64>,
 }
 
 /// The row read from its other end.
-fn reversed(row: &[bool]) -> Row {
+fn reversed(row: &[bool]) -> TileRow {
     row.iter().rev().map(|turned| !turned).collect()
 }
 
@@ -203,7 +203,7 @@ impl Growth<'_> {
 
     /// Two chains as one, if the last face of the first and the first face of the second bind and there is
     /// room; each can be turned round before.
-    fn joined(&self, rows: [Row; 2], turned: [bool; 2], known: &mut Known) -> Option<Row> {
+    fn joined(&self, rows: [TileRow; 2], turned: [bool; 2], known: &mut Known) -> Option<TileRow> {
         let [one, other] = rows;
         let mut row = if turned[0] { reversed(&one) } else { one };
         let next = if turned[1] { reversed(&other) } else { other };
@@ -218,7 +218,7 @@ impl Growth<'_> {
     }
 
     /// Adds a chain.
-    fn add(&self, table: &mut Table, known: &mut Known, row: Row, end: f64) {
+    fn add(&self, table: &mut Table, known: &mut Known, row: TileRow, end: f64) {
         let closing = match known.closing.get(&row) {
             Some(closing) => *closing,
             None => {
@@ -330,7 +330,7 @@ impl Growth<'_> {
 }
 
 /// Takes two chains off the table.
-fn take(table: &mut Table, a: usize, b: usize) -> [Row; 2] {
+fn take(table: &mut Table, a: usize, b: usize) -> [TileRow; 2] {
     let (first, second) = (a.max(b), a.min(b));
     [first, second].map(|k| table.open.swap_remove(k).0)
 }

@@ -14,7 +14,7 @@ const SAME_FACE: f64 = 1e-3;
 const OVERLAP: f64 = 0.01;
 
 /// The tiles of a row in their order: whether each is entered by the second of its binding faces.
-pub type Row = Vec<bool>;
+pub type TileRow = Vec<bool>;
 
 /// A bond between a tile of a row and the next one.
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +88,7 @@ impl<'a> Joints<'a> {
     }
 
     /// A row of tiles that all turn the same way, if they bind so.
-    pub fn uniform(&self, count: usize) -> Option<Row> {
+    pub fn uniform(&self, count: usize) -> Option<TileRow> {
         self.joint(false, false).map(|_| vec![false; count])
     }
 

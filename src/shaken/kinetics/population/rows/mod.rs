@@ -40,4 +40,4 @@ mod joints;
 
 pub use closing::Spreads;
 pub use growth::{Census, Growth};
-pub use joints::{Joints, Row};
+pub use joints::{Joints, TileRow};

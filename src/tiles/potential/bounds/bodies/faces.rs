@@ -27,7 +27,7 @@ use crate::tile::magnet::Shape;
 
 /// A charged face of a magnet; both are alike.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Face {
+pub(super) struct PoleFace {
     /// Its area (m^2).
     area: f64,
     /// The length (m) of its rim, and the integral along it of `|nu_t|` for the worst direction t in the
@@ -36,7 +36,7 @@ pub(super) struct Face {
     across: f64,
 }
 
-impl Face {
+impl PoleFace {
     pub fn new(body: &Body) -> Self {
         let [a, b, c] = body.size;
         let [along, up] = if body.stands { [a, b] } else { [b, c] };

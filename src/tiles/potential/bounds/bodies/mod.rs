@@ -54,7 +54,7 @@ use crate::scale::Scale;
 use crate::tile::{Magnet, Tile};
 use crate::units::MU0_OVER_4PI;
 use cubic::Cubic;
-use faces::{Face, sides};
+use faces::{PoleFace, sides};
 use series::{OfSeries, SeriesBounds};
 
 /// The form of third order is used if what it leaves and this share of the remainder of third order is less than
@@ -94,7 +94,7 @@ pub struct BodyBounds {
 /// A magnet and its properties.
 #[derive(Clone, Copy, Debug)]
 struct Enclosed {
-    face: Face,
+    face: PoleFace,
     /// The number of its size and shape among those of its tile.
     kind: usize,
     /// How deep (m) it lies within its tile.
@@ -112,7 +112,7 @@ struct Enclosed {
 impl Enclosed {
     fn new(magnet: &Magnet, tile: &Tile, kind: usize) -> Self {
         let body = Body::from(magnet);
-        let face = Face::new(&body);
+        let face = PoleFace::new(&body);
         let density = magnet.moment / body.volume();
         Self {
             face,

@@ -154,7 +154,7 @@ impl Task for Arcs<'_> {
 mod tests {
     use super::super::super::apart::Apart;
     use super::super::super::apart::tests::check;
-    use super::super::faces::{Face, distances};
+    use super::super::faces::{PoleFace, distances};
     use super::*;
     use crate::potential::bodies::exact;
     use crate::units::MU0_OVER_4PI;
@@ -202,7 +202,7 @@ mod tests {
             let turning = if stands { 0.0 } else { turning };
             let radius = second.radius();
             let reach = (speed + turning * radius) * 2.0 * h;
-            let [a, b] = [&first, &second].map(Face::new);
+            let [a, b] = [&first, &second].map(PoleFace::new);
             let rims = Rims::of(&first, &second).unwrap();
             let v = speed + turning * 0.0045;
             let mut third = 0.0;

@@ -109,8 +109,8 @@ use crate::potential::{CuboidPotential, Potential};
 use crate::scale::Scale;
 use crate::tile::{Magnet, Outline, Tile};
 use crate::units::MU0_OVER_4PI;
-use faces::{Left, Motion, Pair};
-use nodes::{Nodes, Sum, Totals};
+use faces::{CellMotion, Left, Pair};
+use nodes::{NodeSum, Nodes, Totals};
 
 /// Blocks closer than this many times the sum of their radii are bounded by their pole faces.
 const CLOSE: f64 = 3.0;
@@ -240,8 +240,8 @@ fn enclosed(tile: &Tile, level: Level) -> Vec<Enclosed> {
 }
 
 /// Nothing moves.
-fn still(slack: f64) -> Motion {
-    Motion {
+fn still(slack: f64) -> CellMotion {
+    CellMotion {
         arm: Vector2::zeros(),
         reach: 0.0,
         sides: Vector2::zeros(),
@@ -257,7 +257,7 @@ fn still(slack: f64) -> Motion {
 fn faces(
     level: Level,
     [first, second]: [&Block; 2],
-    motion: &Motion,
+    motion: &CellMotion,
     apart: Option<&Apart>,
     nodes: &mut Nodes,
 ) -> (Totals, Left) {
@@ -276,7 +276,7 @@ fn faces(
             pair.append_at_rest(nodes) + together
         }
     };
-    let totals = level.run(Sum {
+    let totals = level.run(NodeSum {
         nodes,
         half: first.size[1] / 2.0,
         heights: [
@@ -374,7 +374,7 @@ impl CuboidBounds {
         let apart = Apart::of(self.level, [first, &second], [reach, cell.half[2]]);
         let most = apart.map_or(f64::INFINITY, |apart| apart.energy);
         let most = most.min(fixed.own * moving.own) * (1.0 + ROUNDING);
-        let motion = Motion {
+        let motion = CellMotion {
             arm: second.position - cell.centre.position(),
             reach,
             sides: Vector2::new(cell.half[0], cell.half[1]),

@@ -109,13 +109,13 @@ pub(super) struct Totals {
 
 /// Sums up all nodes in the field of a pole face of half the width `half` (m); `heights` are half
 /// the sum and half the difference of the two blocks' thicknesses.
-pub(super) struct Sum<'a> {
+pub(super) struct NodeSum<'a> {
     pub nodes: &'a Nodes,
     pub half: f64,
     pub heights: [f64; 2],
 }
 
-impl Task for Sum<'_> {
+impl Task for NodeSum<'_> {
     type Output = Totals;
 
     #[inline(always)]
@@ -139,7 +139,7 @@ impl Task for Sum<'_> {
     }
 }
 
-impl Sum<'_> {
+impl NodeSum<'_> {
     #[inline(always)]
     fn add<L: Lanes>(&self, l: L, block: &[[f64; WIDTH]; COLUMNS], sums: &mut [L::F; SUMS]) {
         let [

@@ -7,14 +7,18 @@ use super::{DipoleBounds, NEAR};
 use crate::cell::Cell;
 use crate::potential::bounds::{Enclosure, depths};
 use crate::potential::dipole::{Dipole, dipoles};
-use crate::potential::groups::tree::{self, Grain, Group, Tree};
+use crate::potential::groups::tree::{self, DipoleGroup, Grain, Tree};
 use crate::potential::groups::walk::{Leeway, Walk};
 use crate::tile::Tile;
 use crate::units::MU0_OVER_4PI;
 
 impl DipoleBounds {
     /// Encloses U group by group.
-    pub(super) fn enclose_groups(&self, [fixed, moving]: [&[Group]; 2], cell: &Cell) -> Enclosure {
+    pub(super) fn enclose_groups(
+        &self,
+        [fixed, moving]: [&[DipoleGroup]; 2],
+        cell: &Cell,
+    ) -> Enclosure {
         let leeway = Leeway {
             travel: cell.travel(),
             turn: cell.half[2],
@@ -71,7 +75,7 @@ const SLOPE_OF_LOST: f64 = 100.0;
 
 /// The tree of a tile's dipoles, and the dipoles of its groups with their distances to the outline,
 /// which replacements lack.
-pub(super) fn in_groups(tile: &Tile, fill: usize) -> (Vec<(Dipole, f64)>, Vec<Group>) {
+pub(super) fn in_groups(tile: &Tile, fill: usize) -> (Vec<(Dipole, f64)>, Vec<DipoleGroup>) {
     let tree = Tree::new(&dipoles(&tile.magnets), Grain::of_dipoles(fill));
     let mut all: Vec<_> = tree.dipoles.iter().map(|dipole| (*dipole, 0.0)).collect();
     let mut depths = depths(tile).into_iter();

@@ -25,7 +25,7 @@ use super::{CellBounds, Enclosure, ends};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::dipole::Dipole;
 use crate::potential::groups::are_many;
-use crate::potential::groups::tree::Group;
+use crate::potential::groups::tree::DipoleGroup;
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{WIDTH, fill};
 use crate::tile::Tile;
@@ -51,7 +51,7 @@ pub struct DipoleBounds {
     spread: Spread,
     /// Groups of both tiles, if there are enough dipoles to benefit; `fixed` and `moving` are then
     /// those of the trees.
-    groups: Option<[Vec<Group>; 2]>,
+    groups: Option<[Vec<DipoleGroup>; 2]>,
 }
 
 /// A dipole of the fixed tile.

@@ -2,8 +2,8 @@
 
 use nalgebra::{Rotation2, Vector2};
 
-use super::curvature::{Around, Limits, dipole_limits, pair_limits, product};
-use super::jet::{Jet, Place, dipoles};
+use super::curvature::{Around, DerivativeLimits, dipole_limits, pair_limits, product};
+use super::jet::{Jet, PlaneJet, dipoles};
 use super::{Columns, Magnet, Vectors, Way};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
@@ -91,13 +91,13 @@ impl Pairs<'_> {
 }
 
 /// The form, and the bound of its remainder (J).
-pub(in crate::potential) type Form = (Quadratic, f64);
+pub(in crate::potential) type BoundedForm = (Quadratic, f64);
 
 impl Task for Forms<'_> {
-    type Output = Form;
+    type Output = BoundedForm;
 
     #[inline(always)]
-    fn run<L: Lanes>(mut self, l: L) -> Form {
+    fn run<L: Lanes>(mut self, l: L) -> BoundedForm {
         let rotation = self.pairs.cell.centre.rotation();
         let pairs = (self.pairs.count * self.pairs.moving.len()) as f64;
         let rounding = ROUNDING + 16.0 * pairs * f64::EPSILON;
@@ -152,7 +152,7 @@ impl Task for Forms<'_> {
 struct Near<F> {
     /// The factor at the cell's centre, and the bounds of it within the cell.
     factor: Jet<F>,
-    limits: Limits<F>,
+    limits: DerivativeLimits<F>,
     around: Around<F>,
     /// Negative if the magnets are too close to each other for these to hold.
     room: F,
@@ -244,7 +244,7 @@ fn stored<L: Lanes>(l: L, lanes: L::F) -> [f64; WIDTH] {
 
 /// The form by the tile's x, y and theta of a magnet at the end of `arm` whose energy has these
 /// derivatives by its place and its turn.
-fn turned(place: Place<f64>, arm: Vector2<f64>) -> Quadratic {
+fn turned(place: PlaneJet<f64>, arm: Vector2<f64>) -> Quadratic {
     let [value, x, y, t, xx, yy, tt, xy, xt, yt] = place;
     // A turn moves the magnet along this direction, and accelerates it along minus the arm.
     let (dx, dy) = (-arm.y, arm.x);

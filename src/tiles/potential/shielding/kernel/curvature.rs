@@ -74,7 +74,7 @@ pub(super) fn pair_limits<L: Lanes>(
     second: &Vectors<L::F>,
     way: &Way<L::F>,
     around: &Around<L::F>,
-) -> (Jet<L::F>, Limits<L::F>) {
+) -> (Jet<L::F>, DerivativeLimits<L::F>) {
     let ([a, b], [steep_a, steep_b]) = factors(l, first, second, way);
     let (here_a, here_b) = (l.abs(a.0[0]), l.abs(b.0[0]));
     let of_a = factor_limits(l, first.shield, around, steep_a, here_a);
@@ -83,11 +83,15 @@ pub(super) fn pair_limits<L: Lanes>(
 }
 
 /// Bounds of the magnitudes of a quantity and of its first three derivatives along a motion.
-pub(super) type Limits<F> = [F; 4];
+pub(super) type DerivativeLimits<F> = [F; 4];
 
 /// The bounds of a product, by Leibniz' rule.
 #[inline(always)]
-pub(super) fn product<L: Lanes>(l: L, f: Limits<L::F>, g: Limits<L::F>) -> Limits<L::F> {
+pub(super) fn product<L: Lanes>(
+    l: L,
+    f: DerivativeLimits<L::F>,
+    g: DerivativeLimits<L::F>,
+) -> DerivativeLimits<L::F> {
     let (two, three) = (l.splat(2.0), l.splat(3.0));
     let second = l.mul_add(f[0], g[2], l.mul(f[2], g[0]));
     let third = l.mul_add(f[0], g[3], l.mul(f[3], g[0]));
@@ -112,7 +116,7 @@ pub(super) fn dipole_limits<L: Lanes>(
     second: &Vectors<L::F>,
     turn: L::F,
     inverse: L::F,
-) -> Limits<L::F> {
+) -> DerivativeLimits<L::F> {
     let squares = l.mul(
         dot(l, first.moment, first.moment),
         dot(l, second.moment, second.moment),
@@ -179,7 +183,7 @@ pub(super) fn factor_limits<L: Lanes>(
     around: &Around<L::F>,
     steep: L::F,
     here: L::F,
-) -> Limits<L::F> {
+) -> DerivativeLimits<L::F> {
     let [attenuation, length, width, gain] = shield;
     let &Around { turn, inverse, .. } = around;
     let (zero, one, three) = (l.splat(0.0), l.splat(1.0), l.splat(3.0));
@@ -236,7 +240,7 @@ fn eta_limits<L: Lanes>(
     attenuation: L::F,
     length: L::F,
     around: &Around<L::F>,
-) -> Limits<L::F> {
+) -> DerivativeLimits<L::F> {
     let turn = around.turn;
     let x = l.mul(around.r, length);
     let h = l.reciprocal_sqrt(l.mul_add(x, x, l.splat(1.0)));

@@ -41,12 +41,12 @@ impl<F: Copy> Jet<F> {
     }
 
     /// The value and the derivatives by the second magnet's place (x, y) and by t, in the order of
-    /// [`Place`].
+    /// [`PlaneJet`].
     ///
     /// With `w = 1 / z`: `2 d/dz = w (d_s - i d_phi)`, `4 d2/dz2 = w^2 [d_ss - d_phiphi - 2 d_s - 2 i
     /// (d_sphi - d_phi)]` and `4 d2/dz dz* = |w|^2 (d_ss + d_phiphi)`.
     #[inline(always)]
-    pub fn by_place<L: Lanes<F = F>>(&self, l: L, way: &Way<F>) -> Place<F> {
+    pub fn by_place<L: Lanes<F = F>>(&self, l: L, way: &Way<F>) -> PlaneJet<F> {
         let [value, s, p, t, ss, pp, tt, sp, st, pt] = self.0;
         let [x, y] = way.direction;
         let (two, half) = (l.splat(2.0), l.splat(0.5));
@@ -76,7 +76,7 @@ impl<F: Copy> Jet<F> {
 }
 
 /// A value, its derivatives by x, y and t, and by xx, yy, tt, xy, xt and yt.
-pub(super) type Place<F> = [F; 10];
+pub(super) type PlaneJet<F> = [F; 10];
 
 /// The component of `b` across `a`: `a x b`.
 #[inline(always)]

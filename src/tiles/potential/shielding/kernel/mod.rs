@@ -165,7 +165,7 @@ impl PairColumns {
 
 /// The energy (J) of all pairs, each times its factor, and its gradient if requested (otherwise
 /// zero). Not finite if dipoles coincide.
-pub(in crate::potential) struct Sum<'a, const SLOPE: bool> {
+pub(in crate::potential) struct DipoleSum<'a, const SLOPE: bool> {
     pub fixed: &'a Columns,
     pub moving: &'a [Magnet],
     pub q: &'a Configuration,
@@ -175,7 +175,7 @@ pub(in crate::potential) struct Sum<'a, const SLOPE: bool> {
     pub faces: Option<(usize, usize)>,
 }
 
-impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
+impl<const SLOPE: bool> Task for DipoleSum<'_, SLOPE> {
     type Output = (f64, Vector3<f64>);
 
     #[inline(always)]

@@ -41,12 +41,12 @@ pub(super) struct Pair {
     /// Place (m) and axis of the second block.
     place: Vector2<f64>,
     axis: Vector2<f64>,
-    motion: Motion,
+    motion: CellMotion,
 }
 
 /// How a cell moves the second block.
 #[derive(Clone, Copy)]
-pub(super) struct Motion {
+pub(super) struct CellMotion {
     /// Vector (m) to the block from the point about which it turns.
     pub arm: Vector2<f64>,
     /// Largest distance that any of its points moves (m), half the cell's sides (m) and half its
@@ -135,7 +135,7 @@ impl SheetPanel {
 
 impl Pair {
     /// `second` as the cell's centre places it.
-    pub fn new(first: &Block, second: &Block, strength: f64, motion: &Motion) -> Self {
+    pub fn new(first: &Block, second: &Block, strength: f64, motion: &CellMotion) -> Self {
         let into = |w: Vector2<f64>| Vector2::new(first.axis.dot(&w), first.axis.perp(&w));
         Self {
             first: first.size,
@@ -143,7 +143,7 @@ impl Pair {
             strength,
             place: into(second.position - first.position),
             axis: into(second.axis),
-            motion: Motion {
+            motion: CellMotion {
                 arm: into(motion.arm),
                 sides: Vector2::new(
                     first.axis.abs().dot(&motion.sides),
@@ -355,7 +355,7 @@ impl Pair {
 
     /// A turn moves a point across the arm, and along it by this fraction of the turn's square.
     fn ways(&self, panel: &SheetPanel, bent: f64) -> [f64; 2] {
-        let Motion {
+        let CellMotion {
             reach, sides, turn, ..
         } = self.motion;
         let arm = panel.arm.abs() + panel.along.abs() * panel.half;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::arch::Arch;
 use super::lengths::hypotenuse;
 use super::rule::Rule;
-use super::{ELLIPSE, Left, Motion, Pair, SheetPanel};
+use super::{CellMotion, ELLIPSE, Left, Pair, SheetPanel};
 use crate::potential::bounds::cuboid::nodes::{Node, Nodes};
 
 /// Panels over a face that are tilted by more than this (rad) are cut like other panels.
@@ -15,7 +15,7 @@ impl Pair {
     /// A panel over the first block's pole face, nearly parallel to it and clear of the face's
     /// upright edges, by a Gauss rule. `None` if it is not so.
     pub(super) fn over(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Option<Left> {
-        let Motion {
+        let CellMotion {
             reach, turn, slack, ..
         } = self.motion;
         let tilt = panel.along.x.abs() + turn;
