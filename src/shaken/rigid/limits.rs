@@ -102,27 +102,23 @@ impl<W: World> Island<'_, W> {
 
     /// The time (s) in which touching tiles travel as far as contact allows in a step.
     pub(super) fn time_to_travel(&self, velocities: &[Vector3<f64>], holds: &[Hold]) -> f64 {
+        let speed = |hold: &Hold| match (hold.pair, hold.tiles[1]) {
+            (Some(pair), _) => self.relative(self.pairs[pair].0, velocities),
+            (None, tile) => tile.map_or(0.0, |tile| self.fastest(tile, &velocities[tile])),
+        };
         let touching = |hold: &&Hold| hold.gap <= self.travel();
-        let [mut between, mut at_rim] = [0.0_f64; 2];
-        // The points of a pair follow each other.
-        let mut last = None;
-        for hold in holds.iter().filter(touching) {
-            match (hold.pair, hold.tiles[1]) {
-                (Some(pair), _) if last == Some(pair) => {}
-                (Some(pair), _) => {
-                    last = Some(pair);
-                    between = between.max(self.relative(self.pairs[pair].0, velocities));
-                }
-                (None, Some(tile)) => at_rim = at_rim.max(self.fastest(tile, &velocities[tile])),
-                (None, None) => {}
-            }
-        }
-        let time =
-            |fastest: f64, travel: f64| travel * self.fineness() / fastest.max(f64::MIN_POSITIVE);
+        let time = |of_pairs: bool, travel: f64| {
+            // The points of a pair, or of a tile at the rim, follow each other and have one speed.
+            let alike = holds.chunk_by(|a, b| (a.pair, a.tiles) == (b.pair, b.tiles));
+            let alike = alike.filter(|it| it[0].pair.is_some() == of_pairs);
+            let fastest = alike.filter_map(|it| it.iter().find(touching)).map(speed);
+            let fastest = fastest.fold(0.0, f64::max);
+            travel * self.fineness() / fastest.max(f64::MIN_POSITIVE)
+        };
         let Margins {
             travel, rim_travel, ..
         } = *self.margins;
-        time(between, travel).min(time(at_rim, rim_travel))
+        time(true, travel).min(time(false, rim_travel))
     }
 
     /// Finds the longest step from a state, of at most a time (s), and the points for it.

@@ -98,8 +98,8 @@ struct Prepared {
     /// Its points by their indices, in the order of their solution.
     order: Vec<usize>,
     points: Vec<SolverPoint>,
-    /// The numbers of the points that sweeps do not leave out.
-    carrying: Vec<usize>,
+    /// The numbers of the points that a sweep takes.
+    taken: Vec<usize>,
     /// The numbers of the tiles of its points on the table.
     under: Vec<usize>,
     rests: Vec<RestPoint>,
@@ -176,7 +176,7 @@ impl Prepared {
             before: &mut self.before,
             swept: &mut self.swept,
             points: &mut self.points,
-            carrying: &mut self.carrying,
+            taken: &mut self.taken,
             rests: &mut self.rests,
             error,
         };
@@ -436,7 +436,7 @@ mod tests {
                         before: &mut Vec::new(),
                         swept: &mut Vec::new(),
                         points: &mut points,
-                        carrying: &mut Vec::new(),
+                        taken: &mut Vec::new(),
                         rests: &mut [],
                         error: ERROR,
                     })

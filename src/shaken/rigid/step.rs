@@ -82,24 +82,22 @@ impl<W: World> Island<'_, W> {
             .iter()
             .map(|hold| hold.rate(&state.velocities))
             .collect();
-        let least = self.margins.touched / next.unhurried;
-        let fast = (0..rates.len()).filter(|k| rates[*k] > least);
-        let fast: Points<usize> = fast.collect();
         let lasts = |(k, hold): (usize, &Hold)| {
             let slow = self.slow(&next, hold);
             // Whether the nearest point moved apart, by its normal at the start: where tiles turn together, that at
-            // the end would show a bounce. What lasts is much the same point in both lists.
+            // the end would show a bounce.
             let bounced = || {
-                let of_state = |k: &usize| &state.holds[*k];
-                let like = |k: &usize| of_state(k).is_like(hold);
-                let fast = fast.iter().filter(|k| rates[**k] > slow && like(k));
-                let nearest = fast.map(|k| of_state(k).apart(hold)).reduce(f64::min);
-                let from = k.min(rates.len());
-                let mut others = (from..rates.len()).chain(0..from);
-                let is_nearer = |k: usize, nearest: f64| {
-                    rates[k] <= slow && like(&k) && of_state(&k).apart(hold) <= nearest
+                let all = state.holds.iter().zip(&rates);
+                let fast = all.clone().filter(|it| *it.1 > slow && it.0.is_like(hold));
+                let nearest = fast.map(|it| it.0.apart(hold)).reduce(f64::min);
+                // What lasts has much the same place in both lists, so the search from there is short.
+                let mut others = all.cycle().skip(k).take(rates.len());
+                let mut is_any_within = |distance: f64| {
+                    others.any(|(it, rate)| {
+                        *rate <= slow && it.is_like(hold) && it.apart(hold) <= distance
+                    })
                 };
-                nearest.is_some_and(|nearest| !others.any(|k| is_nearer(k, nearest)))
+                nearest.is_some_and(|distance| !is_any_within(distance))
             };
             held.iter().any(|it| it.is_like(hold)) && hold.rate(&way) >= -slow && !bounced()
         };

@@ -41,8 +41,8 @@ pub struct Sweeps<'a> {
     pub before: &'a mut Vec<Four>,
     pub swept: &'a mut Vec<Four>,
     pub points: &'a mut [SolverPoint],
-    /// Room for the numbers of the points that are swept.
-    pub carrying: &'a mut Vec<usize>,
+    /// Room for the numbers of the points that a sweep takes.
+    pub taken: &'a mut Vec<usize>,
     pub rests: &'a mut [RestPoint],
     pub error: f64,
 }
@@ -58,7 +58,7 @@ impl Task for Sweeps<'_> {
             before,
             swept,
             points,
-            carrying,
+            taken,
             rests,
             error,
         } = self;
@@ -73,17 +73,13 @@ impl Task for Sweeps<'_> {
             it.extend_from_slice(velocities);
         }
         let mut last = f64::INFINITY;
+        taken.clear();
+        taken.extend(0..points.len());
         let is_many = points.len() > FEW;
         let mut is_whole = true;
         for sweep in 0..SWEEPS {
-            if is_whole {
-                for point in points.iter_mut() {
-                    point.solve(velocities);
-                }
-            } else {
-                for k in carrying.iter() {
-                    points[*k].solve(velocities);
-                }
+            for k in taken.iter() {
+                points[*k].solve(velocities);
             }
             for point in rests.iter_mut() {
                 point.solve(velocities);
@@ -107,26 +103,23 @@ impl Task for Sweeps<'_> {
                         *now += change * share;
                     }
                 }
-                if is_whole {
-                    for point in points.iter_mut() {
-                        point.go_on(share, velocities);
-                    }
-                } else {
-                    for k in carrying.iter() {
-                        points[*k].go_on(share, velocities);
-                    }
+                for k in taken.iter() {
+                    points[*k].go_on(share, velocities);
                 }
                 for point in rests.iter_mut() {
                     point.go_on(share, velocities);
                 }
             }
-            if is_many && is_whole {
-                carrying.clear();
-                let all = points.iter().enumerate();
-                let carry = all.filter(|(_, point)| point.carries());
-                carrying.extend(carry.map(|(k, _)| k));
+            if is_many {
+                if is_whole {
+                    taken.retain(|k| points[*k].carries());
+                }
+                is_whole = is_found || (sweep + 1) % WHOLE == 0;
+                if is_whole {
+                    taken.clear();
+                    taken.extend(0..points.len());
+                }
             }
-            is_whole = is_found || !is_many || (sweep + 1) % WHOLE == 0;
             last = size;
             before.copy_from_slice(velocities);
         }
