@@ -2,7 +2,7 @@
 
 /// The place of a rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placement {
+pub struct SheetPlace {
     /// The sheet, from 0.
     pub sheet: usize,
     /// The lower left corner on it (m).
@@ -29,7 +29,7 @@ pub fn nest(
     sheet: [f64; 2],
     apart: f64,
     may_turn: bool,
-) -> Option<Vec<Placement>> {
+) -> Option<Vec<SheetPlace>> {
     let room = sheet.map(|length| length - apart);
     let fits = |[w, h]: [f64; 2]| w + apart <= room[0] + 1e-9 && h + apart <= room[1] + 1e-9;
     let laid: Option<Vec<(bool, [f64; 2])>> = sizes
@@ -73,7 +73,7 @@ pub fn nest(
                 rows.last_mut()?
             }
         };
-        places[part] = Some(Placement {
+        places[part] = Some(SheetPlace {
             sheet: row.sheet,
             corner: [row.used + apart, row.low],
             turned,

@@ -1,7 +1,7 @@
 //! All copies of the tiles on sheets of material.
 
 use super::error::PartError;
-use super::nest::{Placement, nest};
+use super::nest::{SheetPlace, nest};
 use super::rim::extent;
 use super::{MadeTile, Request};
 
@@ -78,7 +78,7 @@ pub(super) fn sheets(tiles: &[MadeTile], making: &Request) -> Result<Vec<Sheet>,
             let on_it = mine.iter().zip(&places).filter(|it| it.1.sheet == sheet);
             let placed = |(&&(_, tile, number, layer), place): (
                 &&(f64, usize, usize, Option<usize>),
-                &Placement,
+                &SheetPlace,
             )| Placed {
                 tile,
                 number,

@@ -4,7 +4,7 @@ use super::Body;
 use crate::potential::MagnetModel;
 use crate::potential::far::FarForm;
 use crate::potential::far::multipole::{
-    Multipole, Polynomial, along, composed, magnitudes, powers, product, squares,
+    Homogeneous, Multipole, along, composed, magnitudes, powers, product, squares,
 };
 use crate::tile::magnet::Shape;
 
@@ -13,10 +13,10 @@ const TERMS: usize = 12;
 const BOUND_TERMS: usize = 22;
 
 /// The terms of degree 0, 2, 4 .. of S, in the magnet's own directions.
-fn average(body: &Body, terms: usize) -> Vec<Polynomial> {
+fn average(body: &Body, terms: usize) -> Vec<Homogeneous> {
     let [first, across, up] = &squares();
     let [a, b, c] = body.size;
-    let length = |square: &Polynomial, length: f64| along(square, terms, length);
+    let length = |square: &Homogeneous, length: f64| along(square, terms, length);
     let parts = match (body.shape, body.stands) {
         (Shape::Block, _) => vec![length(first, a), length(across, b), length(up, c)],
         (Shape::Disc, stands) => {
@@ -47,8 +47,8 @@ pub fn series(model: MagnetModel, first: &Body, second: &Body, tolerance: f64) -
 }
 
 /// The operators of two magnets, by their terms of ascending degrees.
-fn operators(first: &Body, second: &Body, terms: usize) -> [Vec<Polynomial>; 2] {
-    let times = |forms: Vec<Polynomial>, by: &[f64]| -> Vec<Polynomial> {
+fn operators(first: &Body, second: &Body, terms: usize) -> [Vec<Homogeneous>; 2] {
+    let times = |forms: Vec<Homogeneous>, by: &[f64]| -> Vec<Homogeneous> {
         forms.iter().map(|form| product(form, by)).collect()
     };
     let [a, b] = [first, second].map(|body| average(body, terms));

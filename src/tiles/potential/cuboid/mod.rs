@@ -50,7 +50,7 @@ use super::dipole::dipoles;
 use super::far::FarForm;
 pub use super::far::PairEnergy;
 use super::far::group::Group;
-use super::far::multipole::{Multipole, Polynomial, along, composed, product, squares};
+use super::far::multipole::{Homogeneous, Multipole, along, composed, product, squares};
 use super::far::rows::Facing;
 use super::kinds::number_of;
 use super::lever::Lever;
@@ -109,7 +109,7 @@ const TERMS: usize = 10;
 const BOUND_TERMS: usize = 16;
 
 /// The terms of degree 1, 3, 5 .. of `S d_a`, in the block's own directions.
-fn operator(size: [f64; 3]) -> Vec<Polynomial> {
+fn operator(size: [f64; 3]) -> Vec<Homogeneous> {
     let sides = squares().into_iter().zip(size);
     let parts: Vec<_> = sides
         .map(|(square, length)| along(&square, BOUND_TERMS, length))

@@ -46,9 +46,9 @@ use crate::potential::simd::lanes::{Lanes, WIDTH};
 pub const MOST_TERMS: usize = 12;
 
 /// A homogeneous real polynomial in P and Q; entry m is the coefficient of P^m Q^(degree-m).
-pub type Polynomial = Vec<f64>;
+pub type Homogeneous = Vec<f64>;
 
-pub fn product(a: &[f64], b: &[f64]) -> Polynomial {
+pub fn product(a: &[f64], b: &[f64]) -> Homogeneous {
     let mut out = vec![0.0; a.len() + b.len() - 1];
     for (i, x) in a.iter().enumerate() {
         for (j, y) in b.iter().enumerate() {
@@ -59,7 +59,7 @@ pub fn product(a: &[f64], b: &[f64]) -> Polynomial {
 }
 
 /// The squares of the derivatives along a magnet's first direction, across it in the plane, and upwards.
-pub fn squares() -> [Polynomial; 3] {
+pub fn squares() -> [Homogeneous; 3] {
     [
         vec![1.0, 2.0, 1.0],
         vec![-1.0, 2.0, -1.0],
@@ -69,8 +69,8 @@ pub fn squares() -> [Polynomial; 3] {
 
 /// The powers of a square, each times its coefficient, of which `ratio(k)` is that of power k to the
 /// one before.
-pub fn powers(square: &Polynomial, count: usize, ratio: impl Fn(f64) -> f64) -> Vec<Polynomial> {
-    let mut powers: Vec<Polynomial> = vec![vec![1.0]];
+pub fn powers(square: &Homogeneous, count: usize, ratio: impl Fn(f64) -> f64) -> Vec<Homogeneous> {
+    let mut powers: Vec<Homogeneous> = vec![vec![1.0]];
     for k in 1..count {
         let next = product(&powers[k - 1], square);
         powers.push(next.iter().map(|x| x * ratio(k as f64)).collect());
@@ -79,14 +79,14 @@ pub fn powers(square: &Polynomial, count: usize, ratio: impl Fn(f64) -> f64) -> 
 }
 
 /// `sinhc(L d / 2)` for a length L (m), given the square of d.
-pub fn along(square: &Polynomial, count: usize, length: f64) -> Vec<Polynomial> {
+pub fn along(square: &Homogeneous, count: usize, length: f64) -> Vec<Homogeneous> {
     let ratio = |k: f64| length * length / (4.0 * (2.0 * k) * (2.0 * k + 1.0));
     powers(square, count, ratio)
 }
 
 /// The terms of degree 0, 2, 4 .. of a product of such operators.
-pub fn composed(parts: &[Vec<Polynomial>], count: usize) -> Vec<Polynomial> {
-    let mut forms: Vec<Polynomial> = (0..count).map(|k| vec![0.0; 2 * k + 1]).collect();
+pub fn composed(parts: &[Vec<Homogeneous>], count: usize) -> Vec<Homogeneous> {
+    let mut forms: Vec<Homogeneous> = (0..count).map(|k| vec![0.0; 2 * k + 1]).collect();
     forms[0][0] = 1.0;
     for powers in parts {
         for k in (0..count).rev() {
@@ -176,7 +176,7 @@ pub struct Multipole {
 impl Multipole {
     /// The series with up to `terms` terms, of operators given by their parts of ascending degrees; all parts
     /// enter the bound of the error.
-    pub fn new([first, second]: [&[Polynomial]; 2], terms: usize) -> Self {
+    pub fn new([first, second]: [&[Homogeneous]; 2], terms: usize) -> Self {
         let all: Vec<_> = (0..first.len()).map(|k| term(first, second, k)).collect();
         // The values of l' of term k.
         let turns = |k: usize| second[k].len();
@@ -325,7 +325,7 @@ fn magnitude(all: &[f64], k: usize) -> f64 {
 }
 
 /// The A_k (m^(2k)) of operators given by their parts.
-pub fn magnitudes([first, second]: [&[Polynomial]; 2]) -> Vec<f64> {
+pub fn magnitudes([first, second]: [&[Homogeneous]; 2]) -> Vec<f64> {
     let terms = 0..first.len();
     terms
         .map(|k| magnitude(&term(first, second, k), k))
@@ -333,7 +333,7 @@ pub fn magnitudes([first, second]: [&[Polynomial]; 2]) -> Vec<f64> {
 }
 
 /// The coefficients T of term `k`, folded onto n >= 0 (l = 2 n): by turns, in steps of 2, and by n.
-pub fn term(first: &[Polynomial], second: &[Polynomial], k: usize) -> Vec<f64> {
+pub fn term(first: &[Homogeneous], second: &[Homogeneous], k: usize) -> Vec<f64> {
     let last = second[k].len() - 1;
     let mut values = vec![0.0; (last + 1) * (k + 2)];
     let rising = rising_halves(2 * k + 2);
